@@ -1,0 +1,56 @@
+# A floor is one folder of quoll/: its sources become an object library quoll_<folder>, its tests
+# (tests/<folder>/*_test.cpp) one test binary <folder>_test that links this floor and those below.
+
+set(quoll_floors "" CACHE INTERNAL "folders in dependency order")
+set(quoll_embedded ${CMAKE_CURRENT_BINARY_DIR}/embedded)
+
+# Settings every translation unit of Quoll shares. -ffp-contract=off: same bits with every compiler.
+add_library(quoll_options INTERFACE)
+target_compile_features(quoll_options INTERFACE cxx_std_20)
+target_compile_options(quoll_options INTERFACE -Wall -Wextra -Wshadow -ffp-contract=off
+                       -fvisibility=hidden -fvisibility-inlines-hidden)
+target_include_directories(quoll_options INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})
+if(QUOLL_SANITIZE)
+  target_compile_options(quoll_options INTERFACE -fsanitize=${QUOLL_SANITIZE}
+                         -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(quoll_options INTERFACE -fsanitize=${QUOLL_SANITIZE})
+endif()
+
+function(quoll_floor folder)
+  cmake_parse_arguments(arg "NO_EXCEPTIONS" "" "EXCEPT" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/quoll/${folder}/*.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  add_library(quoll_${folder} OBJECT ${sources})
+  set_target_properties(quoll_${folder} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_link_libraries(quoll_${folder} PRIVATE quoll_options fmt::fmt-header-only)
+  target_include_directories(quoll_${folder} PRIVATE ${quoll_embedded})
+  if(arg_NO_EXCEPTIONS)
+    set(with_exceptions ${arg_EXCEPT})
+    list(TRANSFORM with_exceptions PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/quoll/${folder}/)
+    foreach(source IN LISTS sources)
+      if(NOT source IN_LIST with_exceptions)
+        set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fno-exceptions)
+      endif()
+    endforeach()
+  endif()
+  set(quoll_floors ${quoll_floors} ${folder} CACHE INTERNAL "")
+endfunction()
+
+# All floors together: the library users link, Quoll::Quoll.
+function(quoll_library)
+  add_library(quoll STATIC)
+  set_target_properties(quoll PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME Quoll)
+  foreach(folder IN LISTS quoll_floors)
+    target_sources(quoll PRIVATE $<TARGET_OBJECTS:quoll_${folder}>)
+  endforeach()
+  target_compile_features(quoll PUBLIC cxx_std_20)
+  target_include_directories(quoll PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}>
+                                          $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(quoll PUBLIC Threads::Threads)
+  if(QUOLL_SANITIZE)
+    target_link_options(quoll PUBLIC -fsanitize=${QUOLL_SANITIZE})
+  endif()
+  add_library(Quoll::Quoll ALIAS quoll)
+endfunction()

@@ -1,0 +1,18 @@
+#pragma once
+// Elementary functions with the same bits on every machine: only + - * / and sqrt, correctly rounded by
+// IEEE 754, and no fused multiply-add (-ffp-contract=off). Errors are measured in tests/base/math_test.
+
+#include <cstdint>
+
+namespace quoll::math {
+
+/// e^x, within 1 ulp; 0 below -745.2, infinity above 709.79; nan for nan.
+double exp(double x);
+
+/// The natural logarithm, within 1 ulp; -infinity at 0, nan below 0.
+double log(double x);
+
+/// x^y for x > 0, relative error below 2 ulp + |y log x| * 2^-52; pow(0, y>0) = 0; pow(x, 0) = 1.
+double pow(double x, double y);
+
+}  // namespace quoll::math
