@@ -2,6 +2,7 @@
 // Builds an Mdp move by move, for worlds written in code and for readers of small files.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -20,8 +21,8 @@ class MdpBuilder {
   /// Index into the action names; made on first mention.
   std::uint32_t action(std::string_view name);
 
-  /// From `from` by `action` to `to` with this reward and probability. Outcomes of one (state, action)
-  /// may come in any order; equal successors with equal reward are joined.
+  /// From `from` by `action` to `to` with this reward and probability. Outcomes of one (state,
+  /// action) may come in any order; equal successors with equal reward are joined.
   MdpBuilder& move(std::string_view from, std::string_view action, std::string_view to,
                    double reward = 0.0, double probability = 1.0);
   void move(State from, std::uint32_t action, State to, double reward, double probability);
@@ -34,7 +35,10 @@ class MdpBuilder {
 
   std::uint64_t states() const { return state_names_.size(); }
 
-  /// The model; actions of a state stand in order of first mention. Errors as Mdp::make.
+  /// The arrays, not validated; actions of a state stand in order of first mention. Fails only for
+  /// a move between states or by an action that were never named.
+  Result<MdpArrays> arrays() const;
+  /// The model. Errors as Mdp::make.
   Result<Mdp> build() const;
 
  private:

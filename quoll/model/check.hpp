@@ -1,6 +1,7 @@
 #pragma once
 // Lint for models: what a careful reader would ask about before trusting an answer.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,21 @@ struct Finding {
   std::string sentence;  ///< for people, with names; ends with how many more there are
   std::uint64_t count = 1;
   std::vector<std::string> names;  ///< up to 10 states or moves concerned
+  std::uint64_t line = 0;          ///< of the first one in its file; 0 = not known
 };
 
-/// Findings about a valid model: unreachable states, dead ends (no actions, not declared terminal is
-/// an end by definition; a dead end is a state that cannot reach any end), duplicate moves, a discount
-/// that underflows on the longest shortest path from the start, undefined undiscounted values.
+/// Every reason why Mdp::make would refuse these arrays, one Finding per kind in the order of the
+/// arrays; each sentence begins with what is wrong at the first place. Empty = a valid model.
+/// If the arrays do not fit together ("shape"), that is the only finding.
+std::vector<Finding> check_arrays(const MdpArrays& arrays);
+
+/// The first of them, as make() reports it: false = none.
+bool first_fault(const MdpArrays& arrays, Error& error);
+
+/// Findings about a valid model: unreachable states, dead ends (no actions, not declared terminal
+/// is an end by definition; a dead end is a state that cannot reach any end), duplicate moves, a
+/// discount that underflows on the longest shortest path from the start, undefined undiscounted
+/// values.
 std::vector<Finding> check(const Mdp& mdp);
 
 }  // namespace quoll

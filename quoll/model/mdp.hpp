@@ -33,27 +33,36 @@ struct Layout {
 /// The arrays of an Mdp. Indices: a state's choices are choice_begin[s] .. choice_begin[s+1]; a
 /// choice's outcomes are outcome_begin[c] .. outcome_begin[c+1].
 struct MdpArrays {
-  std::vector<std::uint64_t> choice_begin;   ///< states + 1
-  std::vector<std::uint64_t> outcome_begin;  ///< choices + 1; empty = exactly one outcome per choice
-  std::vector<State> next;                   ///< per outcome
-  std::vector<double> probability;           ///< per outcome; empty = all 1 (deterministic)
-  std::vector<double> reward;                ///< per choice: expected reward
-  std::vector<double> outcome_reward;        ///< per outcome; empty = the choice's reward for each
-  std::vector<std::uint32_t> action;         ///< per choice: index into action_names
-  std::vector<State> start;                  ///< states an episode may begin in, ascending
-  std::vector<double> start_probability;     ///< per start state; empty = uniform
-  std::vector<State> terminal;               ///< states declared terminal, ascending (may have choices)
+  std::vector<std::uint64_t> choice_begin;  ///< states + 1
+  std::vector<std::uint64_t>
+      outcome_begin;                ///< choices + 1; empty = exactly one outcome per choice
+  std::vector<State> next;          ///< per outcome
+  std::vector<double> probability;  ///< per outcome; empty = all 1 (deterministic)
+  std::vector<double> reward;       ///< per choice: expected reward; may stay empty for make() if
+                                    ///< outcome_reward is given, which decides then
+  std::vector<double> outcome_reward;     ///< per outcome; empty = the choice's reward for each
+  std::vector<std::uint32_t> action;      ///< per choice: index into action_names
+  std::vector<State> start;               ///< states an episode may begin in, ascending; empty
+                                          ///< for make() = all states that are not ends
+  std::vector<double> start_probability;  ///< per start state; empty = uniform
+  std::vector<State> terminal;  ///< states declared terminal, ascending (may have choices)
   Names state_names;
   Names action_names;
   double discount = 1.0;
   std::optional<Layout> layout;
+  std::vector<std::uint32_t> choice_line;  ///< per choice: its line in the file, for messages; may
+                                           ///< be empty; dropped by make()
+  std::vector<std::string> remarks;  ///< what a reader noticed, one sentence each ("state A, action
+                                     ///< go: successor B stands twice"); check() shows them
 };
 
 class Mdp {
  public:
   /// Validates the arrays: offsets ascending, successors known, probabilities in [0, 1] with each
   /// row's sum within 1e-9 of 1, rewards finite, discount in (0, 1], at least one start. The Error
-  /// names the first offending state and action. Cost: one pass.
+  /// names the first offending state and action, and its line if known. Then brings the arrays to
+  /// their one smallest form: outcomes of probability 0 are dropped, and so is each array whose
+  /// emptiness says the same; probabilities are never altered. Cost: a few passes, no copy.
   static Result<Mdp> make(MdpArrays arrays);
 
   std::uint64_t states() const { return a_.choice_begin.size() - 1; }

@@ -1,6 +1,7 @@
 #pragma once
 // File formats of models: one file per format, one line each in the registry.
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,20 +10,42 @@
 
 namespace quoll {
 
+/// Readers hand out arrays that fit together but may still hold what Mdp::make refuses (a row that
+/// sums to 0.9, a reward that is not a number), so that check can report all of it at once.
 struct Format {
   std::string_view name;       ///< "toml"
   std::string_view extension;  ///< ".toml"
   std::string_view summary;
   /// Parses the content of a file; `path` is for messages. Nullptr = cannot be read.
-  Result<Mdp> (*read)(std::string_view content, const std::string& path);
-  /// The model as text that read() takes back; nullptr = cannot be written.
+  Result<MdpArrays> (*read_arrays)(std::string_view content, const std::string& path);
+  /// The model as text that read_arrays() takes back; nullptr = cannot be written.
   Result<std::string> (*write)(const Mdp& mdp);
+  /// Reads a file piece by piece, for formats whose files may be larger than memory has room for
+  /// twice; nullptr = read whole, then parsed.
+  Result<MdpArrays> (*read_path)(const std::string& path);
 };
 
 /// All formats, a hand-written constant table.
 std::span<const Format> formats();
 
-/// Reads a model file by its extension. Errors as one line (DESIGN: file:line:column).
+/// The format of a file name by its extension; an Error lists the known ones.
+Result<const Format*> format_of(const std::string& path);
+
+/// Reads a model file by its extension. Errors as one line, file:line:column.
 Result<Mdp> read_model(const std::string& path);
+/// The same before validation.
+Result<MdpArrays> read_model_arrays(const std::string& path);
+/// The model in `content`, whose format and name in messages `path` gives; opens no file.
+Result<Mdp> parse_model(std::string_view content, const std::string& path);
+
+Result<MdpArrays> read_toml(std::string_view content, const std::string& path);
+Result<std::string> write_toml(const Mdp& mdp);
+
+Result<MdpArrays> read_csv(std::string_view content, const std::string& path);
+Result<MdpArrays> read_csv_path(const std::string& path);
+Result<std::string> write_csv(const Mdp& mdp);
+
+Result<MdpArrays> read_grid(std::string_view content, const std::string& path);
+Result<std::string> write_grid(const Mdp& mdp);
 
 }  // namespace quoll
