@@ -49,6 +49,9 @@ class MdpBuilder {
     double reward;
     double probability;
   };
+  std::vector<std::size_t> ordered(std::vector<std::size_t>& mention) const;
+  void place_starts(MdpArrays& arrays) const;
+
   double discount_;
   std::vector<Move> moves_;
   std::vector<std::string> state_names_, action_names_;

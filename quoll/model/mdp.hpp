@@ -33,27 +33,28 @@ struct Layout {
 /// The arrays of an Mdp. Indices: a state's choices are choice_begin[s] .. choice_begin[s+1]; a
 /// choice's outcomes are outcome_begin[c] .. outcome_begin[c+1].
 struct MdpArrays {
-  std::vector<std::uint64_t> choice_begin;  ///< states + 1
-  std::vector<std::uint64_t>
-      outcome_begin;                ///< choices + 1; empty = exactly one outcome per choice
-  std::vector<State> next;          ///< per outcome
-  std::vector<double> probability;  ///< per outcome; empty = all 1 (deterministic)
-  std::vector<double> reward;       ///< per choice: expected reward; may stay empty for make() if
-                                    ///< outcome_reward is given, which decides then
-  std::vector<double> outcome_reward;     ///< per outcome; empty = the choice's reward for each
-  std::vector<std::uint32_t> action;      ///< per choice: index into action_names
-  std::vector<State> start;               ///< states an episode may begin in, ascending; empty
-                                          ///< for make() = all states that are not ends
+  std::vector<std::uint64_t> choice_begin;   ///< states + 1
+  std::vector<std::uint64_t> outcome_begin;  ///< choices + 1; empty = one outcome per choice
+  std::vector<State> next;                   ///< per outcome
+  std::vector<double> probability;           ///< per outcome; empty = all 1 (deterministic)
+  /// Per choice: expected reward. make() computes it if outcome_reward is given; it may stay empty
+  /// then.
+  std::vector<double> reward;
+  std::vector<double> outcome_reward;  ///< per outcome; empty = the choice's reward for each
+  std::vector<std::uint32_t> action;   ///< per choice: index into action_names
+  /// States an episode may begin in, ascending; empty for make() = all states that are not ends.
+  std::vector<State> start;
   std::vector<double> start_probability;  ///< per start state; empty = uniform
-  std::vector<State> terminal;  ///< states declared terminal, ascending (may have choices)
+  std::vector<State> terminal;            ///< declared terminal, ascending; may have choices
   Names state_names;
   Names action_names;
   double discount = 1.0;
   std::optional<Layout> layout;
-  std::vector<std::uint32_t> choice_line;  ///< per choice: its line in the file, for messages; may
-                                           ///< be empty; dropped by make()
-  std::vector<std::string> remarks;  ///< what a reader noticed, one sentence each ("state A, action
-                                     ///< go: successor B stands twice"); check() shows them
+  /// Per choice: its line in the file, for messages; may be empty; dropped by make().
+  std::vector<std::uint32_t> choice_line;
+  /// What a reader noticed, one sentence each ("state A, action go: successor B stands twice");
+  /// check() shows them as warnings.
+  std::vector<std::string> remarks;
 };
 
 class Mdp {
