@@ -54,3 +54,40 @@ function(quoll_library)
   endif()
   add_library(Quoll::Quoll ALIAS quoll)
 endfunction()
+
+# The files that match the patterns, inside the floor's object library as one generated file
+# embedded_worlds.inc: a list of {"name", R"quoll(text)quoll"}, in the order of the names.
+function(quoll_embed folder)
+  if(NOT TARGET quoll_${folder})
+    return()
+  endif()
+  list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  file(GLOB files CONFIGURE_DEPENDS ${ARGN})
+  set(output ${quoll_embedded}/embedded_worlds.inc)
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -D "files=${files}" -D "output=${output}"
+            -P ${CMAKE_CURRENT_SOURCE_DIR}/cmake/embed.cmake
+    DEPENDS ${files} ${CMAKE_CURRENT_SOURCE_DIR}/cmake/embed.cmake VERBATIM
+    COMMENT "Embedding the world files")
+  target_sources(quoll_${folder} PRIVATE ${output})
+endfunction()
+
+# The library, its headers and a package so that find_package(Quoll CONFIG) gives Quoll::Quoll.
+function(quoll_install)
+  include(CMakePackageConfigHelpers)
+  set(package ${CMAKE_INSTALL_LIBDIR}/cmake/Quoll)
+  install(TARGETS quoll EXPORT QuollTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  foreach(folder IN LISTS quoll_floors)
+    install(DIRECTORY quoll/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/quoll
+            FILES_MATCHING PATTERN "*.hpp")
+  endforeach()
+  file(GLOB together CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/quoll/*.hpp)
+  install(FILES ${together} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/quoll)
+  install(EXPORT QuollTargets NAMESPACE Quoll:: DESTINATION ${package})
+  configure_package_config_file(${CMAKE_CURRENT_SOURCE_DIR}/cmake/QuollConfig.cmake.in
+    ${CMAKE_CURRENT_BINARY_DIR}/QuollConfig.cmake INSTALL_DESTINATION ${package})
+  write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/QuollConfigVersion.cmake
+    COMPATIBILITY SameMinorVersion)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/QuollConfig.cmake
+                ${CMAKE_CURRENT_BINARY_DIR}/QuollConfigVersion.cmake DESTINATION ${package})
+endfunction()
