@@ -16,8 +16,8 @@ struct Progress {
   std::string_view unit = "steps";
 };
 
-/// "\r" and a bar with share, rate and ETA, exactly `width` columns wide so that it covers the line
-/// before it.
+/// "\r" and a bar with share, rate and ETA, exactly `width` - 1 columns wide so that it covers the
+/// line before it.
 std::string progress_bar(const Progress& progress, std::uint32_t width, bool unicode = true);
 
 /// The same as one plain line for a pipe, with "\n".
