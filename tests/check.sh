@@ -1,0 +1,83 @@
+#!/bin/sh
+# What ./dev check runs, after the release tree is built and the tools are there: each step on its own
+# line with its time, all of them even when one fails. `tests/check.sh STEP...` runs some steps only.
+set -u
+
+root=$(dirname "$(dirname "$(readlink -f "$0")")")
+tree=$root/build/release
+jobs=$(nproc)
+log=$root/build/check.log
+cd "$root" || exit 1
+
+# Every C++ file that git knows or would add.
+cpp_files() {
+  git ls-files --cached --others --exclude-standard -- "$@" |
+    while read -r file; do [ ! -f "$file" ] || printf '%s\n' "$file"; done
+}
+
+# tree NAME OPTIONS: configures build/NAME by its preset.
+configure() {
+  name=$1
+  shift
+  [ -e "build/$name/build.ninja" ] || cmake --preset "$name" "$@"
+}
+
+# As clang-format-19 lays it out.
+form() { cpp_files '*.cpp' '*.hpp' '*.c' '*.h' | xargs -r clang-format-19 --dry-run -Werror; }
+
+# Floors, file sizes, what the core does without; each public header on its own.
+floors() { "$tree/tests/floors_test" --gtest_brief=1 && ninja -C "$tree" headers_alone; }
+
+# Names and mistakes (.clang-tidy). A file is looked at again only when something it may see changed.
+tidy() {
+  mkdir -p build/tidy
+  state=$( (cpp_files '*.hpp' | xargs cat; cat .clang-tidy) | cksum | cut -d ' ' -f 1)
+  cpp_files 'quoll/*.cpp' | xargs -r -P "$jobs" -n 1 sh -c '
+    stamp=build/tidy/$(printf %s "$3" | tr / _)
+    now="$1 $(cksum <"$3")"
+    [ "$(cat "$stamp" 2>/dev/null)" = "$now" ] && exit 0
+    clang-tidy-19 --quiet -p "$2" "$3" 2>/dev/null && printf %s "$now" >"$stamp"
+  ' tidy "$state" "$tree"
+}
+
+# The same hash from g++ and from clang.
+signature() {
+  [ -x "$tree/tests/quoll_signature" ] || { echo "no signature program yet"; return 0; }
+  configure clang && ninja -C build/clang quoll_signature || return 1
+  gcc=$("$tree/tests/quoll_signature") && clang=$(build/clang/tests/quoll_signature) || return 1
+  echo "g++ $gcc, clang $clang"
+  [ "$gcc" = "$clang" ]
+}
+
+# Unit tests, cases and fuzz corpora under AddressSanitizer and UndefinedBehaviorSanitizer.
+sanitize() {
+  configure sanitize && ninja -C build/sanitize &&
+    ctest --test-dir build/sanitize -j "$jobs" --output-on-failure --timeout 300 -LE docs
+}
+
+# Whatever starts threads, under ThreadSanitizer.
+threads() {
+  configure tsan && ninja -C build/tsan base_test && build/tsan/tests/base_test --gtest_brief=1 \
+    --gtest_filter='*arallel*:*hread*' || return 1
+  ninja -C build/tsan -t targets all | grep -q '^suites_test:' || return 0
+  ninja -C build/tsan suites_test &&
+    build/tsan/tests/suites_test --gtest_brief=1 --gtest_filter='*arallel*:*hread*'
+}
+
+# An installed Quoll is found by find_package, and a tree of it by add_subdirectory.
+packaging() { sh tests/packaging/run.sh "$tree"; }
+
+# One adventure run in WebAssembly, with the bits of the native one.
+wasi() { sh tests/wasi/run.sh "$tree"; }
+
+failed=''
+[ $# -gt 0 ] || set -- form floors tidy signature packaging wasi threads sanitize
+for step in "$@"; do
+  from=$(date +%s)
+  if "$step" >"$log" 2>&1; then result=ok; else result=FAILED failed="$failed $step"; fi
+  [ $result = ok ] || cat "$log"
+  printf '%-10s %-7s %4d s   %s\n' "$step" "$result" "$(($(date +%s) - from))" \
+    "$([ $result = FAILED ] || grep -E '^(skipped|g\+\+)' "$log" | tail -n 1)"
+done
+[ -z "$failed" ] || { echo "check failed:$failed"; exit 1; }
+echo "check passed"
