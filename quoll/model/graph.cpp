@@ -1,0 +1,99 @@
+#include "quoll/model/graph.hpp"
+
+#include <numeric>
+
+#include "quoll/model/tarjan.hpp"
+
+namespace quoll {
+
+namespace {
+
+// The states from which one move may lead to each state, ends left out as origins.
+struct Predecessors {
+  std::vector<std::uint64_t> begin;  // states + 1, and one spare place used while filling
+  std::vector<State> from;
+
+  explicit Predecessors(const Mdp& mdp) : begin(mdp.states() + 2, 0) {
+    const auto for_each = [&mdp](auto&& see) {
+      for (State s = 0; s < mdp.states(); ++s) {
+        if (mdp.terminal(s)) continue;
+        const std::uint64_t end = mdp.outcome_begin(mdp.choice_end(s));
+        for (std::uint64_t o = mdp.outcome_begin(mdp.choice_begin(s)); o < end; ++o) {
+          see(s, mdp.next(o));
+        }
+      }
+    };
+    for_each([this](State, State to) { ++begin[to + 2]; });
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    from.resize(begin.back());
+    for_each([this](State s, State to) { from[begin[to + 1]++] = s; });
+  }
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> moves_from(const Mdp& mdp, std::span<const State> from) {
+  std::vector<std::uint32_t> moves(mdp.states(), unreached);
+  std::vector<State> queue;
+  for (const State s : from) {
+    if (moves[s] == 0) continue;
+    moves[s] = 0;
+    queue.push_back(s);
+  }
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    const State s = queue[i];
+    if (mdp.terminal(s)) continue;
+    const std::uint64_t end = mdp.outcome_begin(mdp.choice_end(s));
+    for (std::uint64_t o = mdp.outcome_begin(mdp.choice_begin(s)); o < end; ++o) {
+      const State next = mdp.next(o);
+      if (moves[next] != unreached) continue;
+      moves[next] = moves[s] + 1;
+      queue.push_back(next);
+    }
+  }
+  return moves;
+}
+
+std::vector<std::uint32_t> moves_to_end(const Mdp& mdp) {
+  const Predecessors before(mdp);
+  std::vector<std::uint32_t> moves(mdp.states(), unreached);
+  std::vector<State> queue;
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (!mdp.terminal(s)) continue;
+    moves[s] = 0;
+    queue.push_back(s);
+  }
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    const State s = queue[i];
+    for (std::uint64_t p = before.begin[s]; p < before.begin[s + 1]; ++p) {
+      const State from = before.from[p];
+      if (moves[from] != unreached) continue;
+      moves[from] = moves[s] + 1;
+      queue.push_back(from);
+    }
+  }
+  return moves;
+}
+
+std::vector<bool> reachable(const Mdp& mdp, std::span<const State> from) {
+  const std::vector<std::uint32_t> moves = moves_from(mdp, from);
+  std::vector<bool> reached(moves.size());
+  for (std::size_t s = 0; s < moves.size(); ++s) reached[s] = moves[s] != unreached;
+  return reached;
+}
+
+std::vector<bool> can_end(const Mdp& mdp) {
+  const std::vector<std::uint32_t> moves = moves_to_end(mdp);
+  std::vector<bool> can(moves.size());
+  for (std::size_t s = 0; s < moves.size(); ++s) can[s] = moves[s] != unreached;
+  return can;
+}
+
+std::vector<std::uint32_t> strongly_connected(const Mdp& mdp) {
+  std::vector<std::uint32_t> component(mdp.states(), no_component);
+  Tarjan search(mdp, [](std::uint64_t) { return true; }, component);
+  for (State s = 0; s < mdp.states(); ++s) search.visit(s);
+  return component;
+}
+
+}  // namespace quoll
