@@ -34,7 +34,7 @@ struct Picture {
 /// Text for element content and attributes: & < > " ' escaped, valid UTF-8, no control characters.
 std::string xml_escape(std::string_view text);
 
-/// Width of `text` in the fonts asked for, from above: 0.62 of the size per column (0.66 when
+/// Width of `text` from above: classes of letters as wide as in DejaVu Sans, the widest usual font.
 /// bold).
 double text_width(std::string_view text, double size, bool bold = false);
 
@@ -42,14 +42,22 @@ struct TextStyle {
   double size = 14;
   std::string_view color = "#1f2933";
   bool bold = false;
-  bool halo = false;                   ///< a white edge, readable on lines
   std::string_view anchor = "middle";  ///< start, middle or end
 };
+
+/// The place of a text whose anchor stands at (x, baseline).
+Box text_box(double x, double baseline, std::string_view text, const TextStyle& style);
+
+/// Colours shared by all pictures; Okabe and Ito, Color Universal Design, 2008, on a grey text.
+namespace palette {
+inline constexpr std::string_view ink = "#1f2933", grey = "#6b7682", pale = "#d9dee4";
+inline constexpr std::string_view blue = "#0072b2", orange = "#d55e00", green = "#009e73";
+inline constexpr std::string_view amber = "#e69f00", wall = "#3e4650";
+}  // namespace palette
 
 /// Collects elements; the canvas size is given last.
 class SvgWriter {
  public:
-  void raw(std::string_view element) { body_ += element; }
   /// `attributes` is written as it is, e.g. R"(fill="#fff" stroke="none")".
   void rect(const Box& box, double radius, std::string_view attributes);
   void line(double x1, double y1, double x2, double y2, std::string_view attributes);
@@ -70,7 +78,8 @@ class SvgWriter {
 std::string svg_number(double value);
 
 /// A colour-blind-safe sequential scale from light (0) to dark (1), as "#rrggbb"; monotone in
-/// lightness, so it survives a grey print. Cividis: Nunez, Anderton, Renslow, PLoS ONE 13(7), 2018.
+/// lightness, so it survives a grey print. YlGnBu of Brewer, ColorBrewer.org, without its two
+/// darkest.
 std::string scale_color(double share);
 /// Whether dark text is readable on scale_color(share).
 bool scale_is_light(double share);
