@@ -1,0 +1,53 @@
+#pragma once
+// Names to numbers while a file is read: each new name gets the next number. Made for files of ten
+// million rows: no allocation per name, and a short name is compared inside the table itself.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "quoll/model/names.hpp"
+
+namespace quoll {
+
+class NameIndex {
+ public:
+  NameIndex();
+
+  /// The number of `name`; a name not met before gets size(). At most 2^32 - 2 names.
+  std::uint32_t insert(std::string_view name);
+  /// The number of a name met before.
+  std::optional<std::uint32_t> find(std::string_view name) const;
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(offsets_.size() - 1); }
+  /// The name with this number; valid until the next insert.
+  std::string_view operator[](std::uint32_t number) const {
+    return std::string_view(text_).substr(offsets_[number],
+                                          offsets_[number + 1] - offsets_[number]);
+  }
+
+  /// Frees the table and hands out the names: `number` maps a name's number to its place in the
+  /// list; empty = as they were met. The index is empty afterwards.
+  Names take(std::span<const std::uint32_t> number);
+
+ private:
+  // A name of up to 11 bytes stands in its slot, with its length in the top byte of `high`; of a
+  // longer one the slot holds 88 bits of hash, and the text decides.
+  struct Slot {
+    std::uint64_t low;
+    std::uint32_t high;
+    std::uint32_t number;
+  };
+  static Slot key_of(std::string_view name);
+  std::size_t place_of(const Slot& key, std::string_view name) const;
+  void grow();
+
+  std::vector<Slot> slots_;
+  std::string text_;
+  std::vector<std::uint64_t> offsets_;
+};
+
+}  // namespace quoll
