@@ -1,0 +1,84 @@
+#include <array>
+#include <utility>
+
+#include "quoll/base/file.hpp"
+#include "quoll/base/text.hpp"
+#include "quoll/model/formats/format.hpp"
+
+namespace quoll {
+
+namespace {
+
+constexpr std::array<Format, 3> table{{
+    {"toml", ".toml", "named states and actions, written by hand", read_toml, write_toml, nullptr},
+    {"csv", ".csv", "one outcome per row: state,action,next_state,probability,reward", read_csv,
+     write_csv, read_csv_path},
+    {"grid", ".txt", "a picture in letters: walls, start, goal, pits", read_grid, write_grid,
+     nullptr},
+}};
+
+Error placed(Error error, const std::string& path) {
+  if (error.file.empty()) error.file = path;
+  return error;
+}
+
+}  // namespace
+
+std::span<const Format> formats() {
+  return table;
+}
+
+Result<const Format*> format_of(const std::string& path) {
+  for (const Format& format : table) {
+    if (path.size() > format.extension.size() && path.ends_with(format.extension)) return &format;
+  }
+  Error error;
+  error.file = path;
+  error.expected = "expected a file name that ends in ";
+  std::vector<std::string_view> extensions;
+  for (const Format& format : table) {
+    if (!extensions.empty()) error.expected += &format == &table.back() ? " or " : ", ";
+    error.expected += format.extension;
+    extensions.push_back(format.extension);
+  }
+  const std::size_t dot = path.rfind('.');
+  if (dot != std::string::npos) {
+    error.nearest = nearest(std::string_view(path).substr(dot), extensions);
+  }
+  return error;
+}
+
+Result<MdpArrays> read_model_arrays(const std::string& path) {
+  const Result<const Format*> format = format_of(path);
+  if (!format) return format.error();
+  if ((*format)->read_path != nullptr) {
+    Result<MdpArrays> arrays = (*format)->read_path(path);
+    if (!arrays) return placed(arrays.error(), path);
+    return arrays;
+  }
+  const Result<std::string> content = read_file(path);
+  if (!content) return placed(content.error(), path);
+  Result<MdpArrays> arrays = (*format)->read_arrays(*content, path);
+  if (!arrays) return placed(arrays.error(), path);
+  return arrays;
+}
+
+Result<Mdp> read_model(const std::string& path) {
+  Result<MdpArrays> arrays = read_model_arrays(path);
+  if (!arrays) return arrays.error();
+  Result<Mdp> mdp = Mdp::make(*std::move(arrays));
+  if (!mdp) return placed(mdp.error(), path);
+  return mdp;
+}
+
+Result<Mdp> parse_model(std::string_view content, const std::string& path) {
+  const Result<const Format*> format = format_of(path);
+  if (!format) return format.error();
+  Result<MdpArrays> arrays = (*format)->read_arrays(content, path);
+  if (!arrays) return placed(arrays.error(), path);
+  Result<Mdp> mdp = Mdp::make(*std::move(arrays));
+  if (!mdp) return placed(mdp.error(), path);
+  return mdp;
+}
+
+}  // namespace quoll
