@@ -26,10 +26,11 @@ std::vector<Finding> check_arrays(const MdpArrays& arrays);
 /// The first of them, as make() reports it: false = none.
 bool first_fault(const MdpArrays& arrays, Error& error);
 
-/// Findings about a valid model: unreachable states, dead ends (no actions, not declared terminal
-/// is an end by definition; a dead end is a state that cannot reach any end), duplicate moves, a
-/// discount that underflows on the longest shortest path from the start, undefined undiscounted
-/// values.
+/// Findings about a valid model: "no-end", "gaining-cycle" (errors, at discount 1:
+/// undiscounted_fault), "unreachable", "dead-end" (reached states from which no end can be reached,
+/// if there are ends), "duplicate" (the reader's remarks), "underflow" (a reward at the end of the
+/// longest shortest path to an end, or from the start if there is none, counts less than the
+/// smallest normal float).
 std::vector<Finding> check(const Mdp& mdp);
 
 }  // namespace quoll
