@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "quoll/base/random.hpp"
-
 namespace quoll {
 namespace {
 
@@ -37,25 +35,32 @@ std::uint64_t load(const char* bytes, std::size_t count) {
 
 NameIndex::NameIndex() : slots_(64, Slot{0, 0, nobody}), offsets_{0} {}
 
-NameIndex::Slot NameIndex::key_of(std::string_view name) {
+NameIndex::Key NameIndex::key_of(std::string_view name) {
   const std::size_t size = name.size();
   if (size <= longest_inside) {
     const std::uint64_t low = load(name.data(), size < 8 ? size : 8);
     const std::uint64_t rest = size > 8 ? load(name.data() + 8, size - 8) : 0;
-    return {low, static_cast<std::uint32_t>(rest | (size << 24)), nobody};
+    return {low, static_cast<std::uint32_t>(rest | (size << 24))};
   }
   std::uint64_t hash = size;
   std::size_t at = 0;
   for (; at + 8 <= size; at += 8) hash = mix(hash ^ load(name.data() + at, 8)) + golden_gamma;
   hash = mix(hash ^ load(name.data() + at, size - at));
   const auto more = static_cast<std::uint32_t>(mix(hash + golden_gamma) >> 40);
-  return {hash, (long_name << 24) | more, nobody};
+  return {hash, (long_name << 24) | more};
+}
+
+// Returns the key because a function that only prefetches counts as one without effect for g++ 12.
+NameIndex::Key NameIndex::prefetch(std::string_view name) const {
+  const Key key = key_of(name);
+  __builtin_prefetch(&slots_[hash(key) & (slots_.size() - 1)]);
+  return key;
 }
 
 // The slot of this name, or the free one where it belongs. Linear probing; at most 3/4 are taken.
-std::size_t NameIndex::place_of(const Slot& key, std::string_view name) const {
+std::size_t NameIndex::place_of(Key key, std::string_view name) const {
   const std::size_t mask = slots_.size() - 1;
-  std::size_t place = mix(key.low ^ (key.high * golden_gamma)) & mask;
+  std::size_t place = hash(key) & mask;
   while (true) {
     const Slot& slot = slots_[place];
     if (slot.number == nobody) return place;
@@ -67,8 +72,7 @@ std::size_t NameIndex::place_of(const Slot& key, std::string_view name) const {
   }
 }
 
-std::uint32_t NameIndex::insert(std::string_view name) {
-  const Slot key = key_of(name);
+std::uint32_t NameIndex::insert(std::string_view name, Key key) {
   std::size_t place = place_of(key, name);
   if (slots_[place].number != nobody) return slots_[place].number;
   if ((std::uint64_t{size()} + 1) * 4 > slots_.size() * 3) {
@@ -94,7 +98,7 @@ void NameIndex::grow() {
   const std::size_t mask = slots_.size() - 1;
   for (const Slot& slot : old) {
     if (slot.number == nobody) continue;
-    std::size_t place = mix(slot.low ^ (slot.high * golden_gamma)) & mask;
+    std::size_t place = hash({slot.low, slot.high}) & mask;
     while (slots_[place].number != nobody) place = (place + 1) & mask;
     slots_[place] = slot;
   }
@@ -107,9 +111,10 @@ Names NameIndex::take(std::span<const std::uint32_t> number) {
   text_.clear();
   offsets_.assign(1, 0);
   if (number.empty()) {
-    text.shrink_to_fit();
-    offsets.shrink_to_fit();
-    return Names::stored(std::move(text), std::move(offsets));
+    // Copies of the exact size: shrink_to_fit does nothing in a build without exceptions.
+    std::string exact_text(text.data(), text.size());
+    std::vector<std::uint64_t> exact_offsets(offsets.begin(), offsets.end());
+    return Names::stored(std::move(exact_text), std::move(exact_offsets));
   }
   // Offsets in the new order come first from the lengths, then each name goes to its place.
   std::vector<std::uint64_t> placed(number.size() + 1, 0);

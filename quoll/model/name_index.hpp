@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "quoll/base/random.hpp"
 #include "quoll/model/names.hpp"
 
 namespace quoll {
@@ -17,8 +18,20 @@ class NameIndex {
  public:
   NameIndex();
 
+  /// What the table compares of a name: all of a name of up to 11 bytes, its length in the top byte
+  /// of `high`; 88 bits of hash of a longer one, whose text then decides.
+  struct Key {
+    std::uint64_t low;
+    std::uint32_t high;
+  };
+  static Key key_of(std::string_view name);
+  /// The key of a name, whose place begins to be loaded for an insert some rows later: with
+  /// millions of names the time goes into waiting for memory.
+  Key prefetch(std::string_view name) const;
+
   /// The number of `name`; a name not met before gets size(). At most 2^32 - 2 names.
-  std::uint32_t insert(std::string_view name);
+  std::uint32_t insert(std::string_view name) { return insert(name, key_of(name)); }
+  std::uint32_t insert(std::string_view name, Key key);
   /// The number of a name met before.
   std::optional<std::uint32_t> find(std::string_view name) const;
 
@@ -34,15 +47,13 @@ class NameIndex {
   Names take(std::span<const std::uint32_t> number);
 
  private:
-  // A name of up to 11 bytes stands in its slot, with its length in the top byte of `high`; of a
-  // longer one the slot holds 88 bits of hash, and the text decides.
   struct Slot {
     std::uint64_t low;
     std::uint32_t high;
     std::uint32_t number;
   };
-  static Slot key_of(std::string_view name);
-  std::size_t place_of(const Slot& key, std::string_view name) const;
+  static std::uint64_t hash(Key key) { return mix(key.low ^ (key.high * golden_gamma)); }
+  std::size_t place_of(Key key, std::string_view name) const;
   void grow();
 
   std::vector<Slot> slots_;

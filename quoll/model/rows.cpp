@@ -14,10 +14,13 @@ bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
-// Gives back what was reserved for nothing; a few unused entries are not worth a copy.
+// Gives back what was reserved for nothing; a few unused entries are not worth a copy. A copy,
+// because shrink_to_fit does nothing in a build without exceptions.
 template <class T>
 void trim(std::vector<T>& values) {
-  if (values.capacity() > values.size() + values.size() / 64 + 64) values.shrink_to_fit();
+  if (values.capacity() <= values.size() + values.size() / 64 + 64) return;
+  std::vector<T> exact(values.begin(), values.end());
+  values.swap(exact);
 }
 
 // The rows of `values`, segment by segment in a new order. `begin(i)` is the first row of segment
@@ -43,8 +46,8 @@ MdpRows::MdpRows(std::uint64_t expected_rows) : expected_rows_(expected_rows) {
   arrays_.choice_line.reserve(expected_rows);
 }
 
-void MdpRows::add(std::uint32_t state, std::uint32_t action, std::uint32_t next, double probability,
-                  double reward, std::uint64_t line) {
+void MdpRows::add(std::uint32_t state, std::uint32_t action, double probability, double reward,
+                  std::uint64_t line) {
   MdpArrays& a = arrays_;
   if (!in_state_ || state != state_) open_state(state);
   if (!in_choice_ || action != action_) {
@@ -61,7 +64,7 @@ void MdpRows::add(std::uint32_t state, std::uint32_t action, std::uint32_t next,
     a.probability.push_back(probability);
   }
   if (!a.outcome_reward.empty()) a.outcome_reward.push_back(reward);
-  a.next.push_back(next);
+  ++rows_;
 }
 
 void MdpRows::declare(std::uint32_t state) {

@@ -18,17 +18,21 @@ class MdpRows {
   /// Reserves address space, not memory, for this many rows; more may come.
   explicit MdpRows(std::uint64_t expected_rows);
 
-  /// One outcome. At most 2^32 - 1 rows; `line` is where it stands, for messages.
-  void add(std::uint32_t state, std::uint32_t action, std::uint32_t next, double probability,
-           double reward, std::uint64_t line);
+  /// One outcome but for its successor. At most 2^32 - 1 rows; `line` is where it stands, for
+  /// messages.
+  void add(std::uint32_t state, std::uint32_t action, double probability, double reward,
+           std::uint64_t line);
+  /// The successors, row by row; they may lag behind, because looking up names takes its time.
+  void add_next(std::uint32_t next) { arrays_.next.push_back(next); }
   /// Gives a state its place without a row.
   void declare(std::uint32_t state);
 
-  std::uint64_t size() const { return arrays_.next.size(); }
+  std::uint64_t size() const { return rows_; }
 
-  /// The arrays of all but names, start, terminal and discount; fills `index` with the state's
-  /// index for each of the caller's `states` numbers. A choice's actions stand in order of first
-  /// mention. Peak memory: the arrays, and if sorting was needed once more the largest of them.
+  /// The arrays, when each row has its successor, of all but names, start, terminal and discount;
+  /// fills `index` with the state's index for each of the caller's `states` numbers. A choice's
+  /// actions stand in order of first mention. Peak memory: the arrays, and if sorting was needed
+  /// once more the largest of them.
   MdpArrays finish(std::uint32_t states, std::vector<std::uint32_t>& index);
 
  private:
@@ -44,6 +48,7 @@ class MdpRows {
   // other. choice_begin, outcome_begin lack their last entry.
   MdpArrays arrays_;
   std::uint64_t expected_rows_;
+  std::uint64_t rows_ = 0;
   std::vector<std::uint32_t> index_;          // per state number: its index, or nobody
   std::vector<std::uint32_t> last_state_;     // per action: the last state that opened it
   std::vector<std::uint32_t> segment_state_;  // per segment, only when sorting is needed

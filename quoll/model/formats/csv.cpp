@@ -53,11 +53,21 @@ class CsvReader {
   bool read_row(std::string_view line);
   bool read_number(Column column, double& value);
   bool number_of(Column column, NameIndex& index, std::uint32_t& number);
+  bool check_name(std::string_view name, std::uint64_t line, std::size_t column);
+  bool put_next();
+  bool take_next();
   bool find_mentioned(const Mention& mention, State& found, double& weight);
   bool finish(MdpArrays& arrays);
   bool finish_start(MdpArrays& arrays);
   std::string_view field(Column column) const { return fields_.text[place_[column]]; }
   std::size_t column_of(Column column) const { return fields_.at[place_[column]] + 1; }
+
+  struct Successor {
+    std::string name;
+    NameIndex::Key key;
+    std::uint64_t line;
+    std::size_t column;
+  };
 
   Lines& lines_;
   const std::string& path_;
@@ -67,6 +77,8 @@ class CsvReader {
   std::array<std::size_t, 5> place_{};
   std::string last_state_, last_action_;  // the names of the row before: rows come in groups
   std::uint32_t state_ = 0, action_ = 0;
+  std::array<Successor, 16> queue_;
+  std::size_t first_waiting_ = 0, waiting_ = 0;
   std::optional<double> discount_;
   std::vector<Mention> start_, terminal_, first_actions_;
   std::vector<std::uint32_t> index_;  // per number in states_: index in the model
@@ -96,6 +108,9 @@ Result<MdpArrays> CsvReader::read() {
   if (!in_rows) return Error{path_, 0, 0, "expected the header line " + std::string(header), ""};
   if (states_.size() == 0) {
     return Error{path_, lines_.number(), 0, "expected at least one row below the header", ""};
+  }
+  while (waiting_ > 0) {
+    if (!take_next()) return error_;
   }
   MdpArrays arrays = rows_.finish(states_.size(), index_);
   if (!finish(arrays)) return error_;
@@ -173,14 +188,43 @@ bool CsvReader::number_of(Column column, NameIndex& index, std::uint32_t& number
   const std::uint32_t before = index.size();
   number = index.insert(name);
   if (number < before) return true;
-  // A name is checked once, when it is new.
+  return check_name(name, lines_.number(), column_of(column));
+}
+
+// A name is checked once, when it is new.
+bool CsvReader::check_name(std::string_view name, std::uint64_t line, std::size_t column) {
   for (const char letter : name) {
     if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) {
-      return fail(column_of(column), "expected a name without control characters");
+      error_ = {path_, line, column, "expected a name without control characters", ""};
+      return false;
     }
   }
-  if (index.size() > max_states) return fail(column_of(column), "expected below 2^31 names");
+  if (states_.size() <= max_states && actions_.size() <= max_states) return true;
+  error_ = {path_, line, column, "expected below 2^31 states and actions", ""};
+  return false;
+}
+
+// The successor of this row waits its turn while its place in the table is loaded. The order of
+// first mention among names that are only successors does not change by waiting.
+bool CsvReader::put_next() {
+  if (waiting_ == queue_.size() && !take_next()) return false;
+  Successor& last = queue_[(first_waiting_ + waiting_) % queue_.size()];
+  last.name = field(next_state);
+  last.key = states_.prefetch(last.name);
+  last.line = lines_.number();
+  last.column = column_of(next_state);
+  ++waiting_;
   return true;
+}
+
+bool CsvReader::take_next() {
+  const Successor& first = queue_[first_waiting_];
+  const std::uint32_t before = states_.size();
+  const std::uint32_t number = states_.insert(first.name, first.key);
+  rows_.add_next(number);
+  first_waiting_ = (first_waiting_ + 1) % queue_.size();
+  --waiting_;
+  return number < before || check_name(first.name, first.line, first.column);
 }
 
 bool CsvReader::read_number(Column column, double& value) {
@@ -228,14 +272,12 @@ bool CsvReader::read_row(std::string_view line) {
     if (!number_of(action, actions_, action_)) return false;
     last_action_ = field(action);
   }
-  std::uint32_t next = 0;
   double p = 0;
   double r = 0;
-  if (!number_of(next_state, states_, next)) return false;
   if (!read_number(probability, p) || !read_number(reward, r)) return false;
   if (rows_.size() == most_rows) return fail(0, "expected at most 2^32 - 1 rows");
-  rows_.add(state_, action_, next, p, r, lines_.number());
-  return true;
+  rows_.add(state_, action_, p, r, lines_.number());
+  return put_next();
 }
 
 // A bare A:0.5 may be a name as it stands; if not, the part behind the last colon is a weight.
