@@ -77,11 +77,17 @@ std::vector<std::span<const CurvePoint>> pieces(const Curve& curve) {
 void draw_band(SvgWriter& svg, const Plot& plot, std::span<const CurvePoint> run,
                std::string_view color) {
   std::string upper, lower;
-  for (const CurvePoint& point : run) {
-    if (!std::isfinite(point.lower) || !std::isfinite(point.upper)) continue;
-    const std::string x = svg_number(plot.px(point.step));
-    upper += fmt::format("{}{} {}", upper.empty() ? "M" : "L", x, svg_number(plot.py(point.upper)));
-    lower = fmt::format("L{} {}", x, svg_number(plot.py(point.lower))) + lower;
+  const auto add = [&](std::string& data, const char* command, double step, double value) {
+    data += fmt::format("{}{} {}", command, svg_number(plot.px(step)), svg_number(plot.py(value)));
+  };
+  const auto banded = [](const CurvePoint& p) {
+    return std::isfinite(p.lower) && std::isfinite(p.upper);
+  };
+  for (const CurvePoint& p : run) {
+    if (banded(p)) add(upper, upper.empty() ? "M" : "L", p.step, p.upper);
+  }
+  for (auto p = run.rbegin(); p != run.rend(); ++p) {
+    if (banded(*p)) add(lower, "L", p->step, p->lower);
   }
   if (upper.empty()) return;
   svg.path(upper + lower + "z", fmt::format(R"(fill="{}" fill-opacity="0.18")", color));
