@@ -1,0 +1,119 @@
+#include "quoll/solve/ending.hpp"
+
+#include <cstddef>
+
+#include "quoll/model/graph.hpp"
+
+namespace quoll {
+
+namespace {
+
+class Search {
+ public:
+  explicit Search(const Mdp& mdp) : mdp_(mdp), moves_(moves_to_end(mdp)) {
+    out_.live.assign(mdp.states(), 0);
+    out_.policy.assign(mdp.states(), no_action);
+    for (State s = 0; s < mdp.states(); ++s) {
+      if (mdp.terminal(s)) continue;
+      out_.live[s] = moves_[s] != unreached ? 1 : 0;
+      out_.policy[s] = 0;
+    }
+  }
+
+  Ending run() {
+    if (mdp_.deterministic() || closed()) {
+      for (State s = 0; s < mdp_.states(); ++s) {
+        if (out_.live[s] != 0) out_.policy[s] = nearing(s);
+      }
+    } else {
+      while (drop_unsure()) {
+      }
+    }
+    return out_;
+  }
+
+ private:
+  bool good(State s) const { return out_.live[s] != 0 || mdp_.terminal(s); }
+
+  // Whether all outcomes of a choice are live or ends.
+  bool safe(std::uint64_t c) const {
+    for (std::uint64_t o = mdp_.outcome_begin(c); o < mdp_.outcome_end(c); ++o) {
+      if (!good(mdp_.next(o))) return false;
+    }
+    return true;
+  }
+
+  // No choice leads out of the live states: then going nearer with positive probability suffices.
+  bool closed() const {
+    for (State s = 0; s < mdp_.states(); ++s) {
+      if (out_.live[s] == 0) continue;
+      for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
+        if (!safe(c)) return false;
+      }
+    }
+    return true;
+  }
+
+  Action nearing(State s) const {
+    for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
+      for (std::uint64_t o = mdp_.outcome_begin(c); o < mdp_.outcome_end(c); ++o) {
+        const State next = mdp_.next(o);
+        if (moves_[next] + 1 == moves_[s] && moves_[next] != unreached) {
+          return static_cast<Action>(c - mdp_.choice_begin(s));
+        }
+      }
+    }
+    return 0;
+  }
+
+  // Drops live states that cannot reach an end by safe choices; true if any was dropped.
+  bool drop_unsure() {
+    const std::size_t states = mdp_.states();
+    std::vector<bool> reaches(states);
+    for (std::size_t s = 0; s < states; ++s) reaches[s] = mdp_.terminal(static_cast<State>(s));
+    bool backward = true;
+    for (bool grown = true; grown; backward = !backward) {
+      grown = false;
+      for (std::size_t i = 0; i < states; ++i) {
+        const State s = static_cast<State>(backward ? states - 1 - i : i);
+        if (out_.live[s] == 0 || reaches[s] || !advance(s, reaches)) continue;
+        reaches[s] = true;
+        grown = true;
+      }
+    }
+    bool dropped = false;
+    for (std::size_t s = 0; s < states; ++s) {
+      if (out_.live[s] == 0 || reaches[s]) continue;
+      out_.live[s] = 0;
+      out_.policy[s] = 0;
+      dropped = true;
+    }
+    return dropped;
+  }
+
+  // Sets the policy of s to a safe choice that may lead to a state that reaches an end.
+  bool advance(State s, const std::vector<bool>& reaches) {
+    for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
+      bool hits = false;
+      for (std::uint64_t o = mdp_.outcome_begin(c); o < mdp_.outcome_end(c); ++o) {
+        hits = hits || reaches[mdp_.next(o)];
+      }
+      if (!hits || !safe(c)) continue;
+      out_.policy[s] = static_cast<Action>(c - mdp_.choice_begin(s));
+      return true;
+    }
+    return false;
+  }
+
+  const Mdp& mdp_;
+  std::vector<std::uint32_t> moves_;
+  Ending out_;
+};
+
+}  // namespace
+
+Ending find_ending(const Mdp& mdp) {
+  return Search(mdp).run();
+}
+
+}  // namespace quoll

@@ -1,0 +1,53 @@
+#pragma once
+// Deterministic models: a policy makes of the model a graph with one move per state. Its value is
+// found exactly along the graph, with outward rounding: integers at discount 1 stay exact.
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "quoll/model/mdp.hpp"
+#include "quoll/solve/rounding.hpp"
+
+namespace quoll {
+
+inline constexpr std::uint32_t never = std::numeric_limits<std::uint32_t>::max();
+
+/// The values of one policy. States with mask 0 are not looked at: they keep the bounds they have.
+struct GraphValues {
+  std::vector<double> lower, upper;
+  std::vector<State> order;  ///< the states evaluated, each after its successor (but cycles)
+  std::vector<std::uint32_t> steps;  ///< moves until an end, or never
+};
+
+/// Evaluates the policy of a deterministic model. `live[s]` = 0 marks non-terminal states that are
+/// worth -infinity; empty = all live. A live state with no_action gets the widest bounds the
+/// rewards allow. Cost: O(states), 30 ns each.
+GraphValues evaluate_graph(const Mdp& mdp, std::span<const Action> policy, const Discount& discount,
+                           std::span<const std::uint8_t> live = {});
+
+/// Howard's improvement, certified: switches each live state to the action with the best lower
+/// bound where that exceeds the state's upper bound. Returns the number of states switched.
+std::uint64_t improve_policy(const Mdp& mdp, const GraphValues& values, const Discount& discount,
+                             std::span<const std::uint8_t> live, std::vector<Action>& policy);
+
+/// Raises `upper` until T upper <= upper holds with outward rounding in the states of `order`;
+/// gives up after `sweeps` sweeps and then, below discount 1, adds one constant everywhere. False:
+/// not achieved.
+bool raise_until_inductive(const Mdp& mdp, const Discount& discount, std::span<const State> order,
+                           std::vector<double>& upper, unsigned sweeps = 64);
+
+/// The rewards of a deterministic model that has only two: one for each move to a state that is no
+/// end, one for each move to an end. Such a model is solved by counting moves.
+struct TwoRewards {
+  double move = 0.0;
+  double end = 0.0;
+};
+std::optional<TwoRewards> two_rewards(const Mdp& mdp);
+/// Whether with these rewards fewer moves to an end are always at least as good (strictly: always
+/// better), and never ending is not better than any of it.
+bool fewer_moves_win(const TwoRewards& rewards, const Discount& discount, bool strictly);
+
+}  // namespace quoll

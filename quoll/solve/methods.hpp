@@ -1,0 +1,52 @@
+#pragma once
+// The solvers of the registry, and what all of them do at their edge.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "quoll/solve/solver.hpp"
+
+namespace quoll {
+
+std::unique_ptr<Solver> make_value_iteration();
+std::unique_ptr<Solver> make_policy_iteration();
+std::unique_ptr<Solver> make_label_setting();
+
+/// The discount in use: the settings' or the model's own. Error if outside (0, 1].
+Result<double> discount_in_use(const Mdp& mdp, const SolveSettings& settings);
+
+/// The Error that names what makes total reward undefined at discount 1, if something does.
+std::optional<Error> undiscounted_error(const Mdp& mdp);
+
+/// Solves for the least cost: the same solver on the model with negated rewards.
+Result<Solution> solve_minimised(Solver& solver, const Mdp& mdp, SolveSettings settings);
+
+/// Sets gap, converged and exact from the bounds.
+void conclude(Solution& solution, double width);
+
+/// Largest upper - lower; equal infinite bounds count as 0.
+double largest_gap(const Solution& solution);
+
+/// Tells keep_going how far the work is; false = stop.
+bool may_continue(const SolveSettings& settings, const Solution& solution, double gap);
+
+/// Solves a deterministic model by certified policy improvement from `policy` (at discount 1 one
+/// that ends from every live state), then proves the upper bound. Fills bounds, policy, converged.
+void improve_to_optimum(const Mdp& mdp, const SolveSettings& settings, double discount,
+                        const std::vector<std::uint8_t>& live, Solution& solution);
+
+/// Solves at discount 1, any model. Errors as Solver::solve.
+Result<Solution> solve_undiscounted(const Mdp& mdp, const SolveSettings& settings,
+                                    std::string_view method);
+/// The same without asking first whether values are defined: states that cannot end with
+/// probability 1 get -infinity, bounds that cannot be proved are infinite.
+Solution solve_ending(const Mdp& mdp, const SolveSettings& settings, std::string_view method);
+
+/// Per state 1 if it is no end and some policy ends from it with probability 1. At discounts below
+/// 1 every non-terminal state is live.
+std::vector<std::uint8_t> live_states(const Mdp& mdp, double discount);
+
+}  // namespace quoll

@@ -1,0 +1,125 @@
+#pragma once
+// The Bellman kernel: the one loop over states, choices and outcomes. What happens with each
+// state's best value is the business of a small backend, so that every sweep of every method is
+// this loop.
+//
+// A backend is called as backend(State s, double best, Action first_best) for each state of the
+// range that is no end; it may write to the values being read (Gauss-Seidel) or elsewhere (Jacobi).
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "quoll/base/parallel.hpp"
+#include "quoll/model/mdp.hpp"
+#include "quoll/solve/rounding.hpp"
+
+namespace quoll {
+
+/// reward + discount * expected value after a choice, in the order of the outcomes.
+template <bool one_outcome>
+double backup(const Mdp& mdp, double discount, const double* value, std::uint64_t choice) {
+  if constexpr (one_outcome) {
+    return mdp.reward(choice) + discount * value[mdp.arrays().next[choice]];
+  } else {
+    double mean = 0.0;
+    const std::uint64_t end = mdp.outcome_end(choice);
+    for (std::uint64_t o = mdp.outcome_begin(choice); o < end; ++o) {
+      mean += mdp.arrays().probability[o] * value[mdp.arrays().next[o]];
+    }
+    return mdp.reward(choice) + discount * mean;
+  }
+}
+
+struct StateRange {
+  State begin;
+  State end;
+  bool backward = false;
+};
+
+template <bool one_outcome, class Backend>
+void sweep_range(const Mdp& mdp, double discount, const double* value, StateRange range,
+                 Backend& backend) {
+  const State count = range.end - range.begin;
+  for (State i = 0; i < count; ++i) {
+    const State s = range.backward ? range.end - 1 - i : range.begin + i;
+    if (mdp.terminal(s)) continue;
+    const std::uint64_t begin = mdp.choice_begin(s);
+    const std::uint64_t end = mdp.choice_end(s);
+    double best = backup<one_outcome>(mdp, discount, value, begin);
+    std::uint64_t best_choice = begin;
+    for (std::uint64_t c = begin + 1; c < end; ++c) {
+      const double q = backup<one_outcome>(mdp, discount, value, c);
+      if (q > best) {
+        best = q;
+        best_choice = c;
+      }
+    }
+    backend(s, best, static_cast<Action>(best_choice - begin));
+  }
+}
+
+/// One sweep over a range of states.
+template <class Backend>
+void sweep(const Mdp& mdp, double discount, const double* value, StateRange range,
+           Backend& backend) {
+  if (mdp.deterministic()) {
+    sweep_range<true>(mdp, discount, value, range, backend);
+  } else {
+    sweep_range<false>(mdp, discount, value, range, backend);
+  }
+}
+
+/// In place; keeps the largest change.
+struct InPlace {
+  double* value;
+  double change = 0.0;
+
+  void operator()(State s, double best, Action) {
+    change = std::max(change, std::fabs(best - value[s]));
+    value[s] = best;
+  }
+};
+
+/// Into another vector, with the least and greatest difference and the greedy policy.
+struct Residual {
+  const double* old_value;
+  double* new_value;
+  Action* policy;
+  double least = infinity;
+  double greatest = -infinity;
+
+  void operator()(State s, double best, Action action) {
+    const double difference = best - old_value[s];
+    least = std::min(least, difference);
+    greatest = std::max(greatest, difference);
+    new_value[s] = best;
+    policy[s] = action;
+  }
+};
+
+/// A whole Jacobi sweep on several threads. Parts are cut by number of states and minima and maxima
+/// do not depend on order, so the bits do not depend on `threads`.
+inline Residual sweep_all(const Mdp& mdp, double discount, const std::vector<double>& from,
+                          std::vector<double>& to, std::vector<Action>& policy, unsigned threads) {
+  constexpr std::uint64_t part_size = 1 << 15;
+  const std::uint64_t states = mdp.states();
+  const std::size_t parts = (states + part_size - 1) / part_size;
+  std::vector<Residual> residuals(parts, Residual{from.data(), to.data(), policy.data()});
+  const auto work = [&](std::size_t part) {
+    const std::uint64_t begin = part * part_size;
+    const std::uint64_t end = std::min(states, begin + part_size);
+    sweep(mdp, discount, from.data(), {static_cast<State>(begin), static_cast<State>(end)},
+          residuals[part]);
+  };
+  parallel_for(parts, threads, work);
+  Residual all{from.data(), to.data(), policy.data()};
+  for (const Residual& part : residuals) {
+    all.least = std::min(all.least, part.least);
+    all.greatest = std::max(all.greatest, part.greatest);
+  }
+  return all;
+}
+
+}  // namespace quoll

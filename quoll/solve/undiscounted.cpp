@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "quoll/model/graph.hpp"
+#include "quoll/solve/ending.hpp"
+#include "quoll/solve/induced.hpp"
+#include "quoll/solve/methods.hpp"
+#include "quoll/solve/sweep.hpp"
+#include "quoll/solve/total_certificate.hpp"
+
+// Total reward without discounting, for policies that end. Bertsekas and Tsitsiklis 1991
+// (stochastic shortest paths); upper bound by guess and inductive proof: Hartmanns and Kaminski
+// 2020 (optimistic value iteration). Rewards may have both signs.
+//
+//   1  pi <- a policy that ends with probability 1 from every live state
+//   2  evaluate pi in place; switch an action only if it is better by more than rounding: then pi
+//      keeps ending, because no cycle gains
+//   3  repeat until nothing switches after an accurate evaluation V
+//   4  prove V - e w <= V_pi and V* <= V + e w (total_certificate.hpp)
+//
+// pi: policy, V: value.
+
+namespace quoll {
+
+namespace {
+
+class EndingIteration {
+ public:
+  EndingIteration(const Mdp& mdp, const SolveSettings& settings, Ending ending)
+      : mdp_(mdp),
+        settings_(settings),
+        live_(std::move(ending.live)),
+        value_(mdp.states(), 0.0),
+        outside_(mdp.states(), false) {
+    solution_.policy = std::move(ending.policy);
+    for (State s = 0; s < mdp.states(); ++s) {
+      outside_[s] = live_[s] == 0;
+      if (outside_[s] && !mdp.terminal(s)) value_[s] = -infinity;
+    }
+    const auto [low, high] = mdp.reward_bounds();
+    reward_size_ = std::max(std::fabs(low), std::fabs(high));
+  }
+
+  Solution run() {
+    double improvement = infinity;
+    for (bool accurate = false;;) {
+      if (!evaluate(accurate ? rounding() : std::max(rounding(), 0.01 * improvement),
+                    accurate ? settings_.max_sweeps : 100)) {
+        break;
+      }
+      improvement = improve();
+      if (!may_continue(settings_, solution_, improvement)) break;
+      if (improvement == 0.0 && accurate) break;
+      accurate = improvement == 0.0;
+    }
+    return finish();
+  }
+
+ private:
+  double rounding() const {
+    double size = reward_size_;
+    for (State s = 0; s < mdp_.states(); ++s) {
+      if (live_[s] != 0) size = std::max(size, std::fabs(value_[s]));
+    }
+    return 8.0 * half_ulp * size;
+  }
+
+  // Step 2, first half.
+  bool evaluate(double goal, std::uint64_t most_sweeps) {
+    const Result<Mdp> chain =
+        induced_model(mdp_, as_probabilities(mdp_, solution_.policy), std::nullopt, outside_);
+    if (!chain) return false;
+    bool backward = true;
+    double change = infinity;
+    for (std::uint64_t k = 0; change > goal && k < most_sweeps; ++k) {
+      InPlace backend{value_.data()};
+      sweep(*chain, 1.0, value_.data(), {0, static_cast<State>(mdp_.states()), backward}, backend);
+      change = backend.change;
+      backward = !backward;
+      ++solution_.sweeps;
+      solution_.backups += mdp_.states();
+      if (!may_continue(settings_, solution_, change)) return false;
+    }
+    return true;
+  }
+
+  // Step 2, second half: the largest gain of a switch, 0 if there was none.
+  double improve() {
+    const double doubt = 4.0 * rounding();
+    double largest = 0.0;
+    for (State s = 0; s < mdp_.states(); ++s) {
+      if (live_[s] == 0) continue;
+      const double before = value_[s];
+      double best = before + doubt;
+      for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
+        const double q = backup<false>(mdp_, 1.0, value_.data(), c);
+        if (!(q > best)) continue;
+        best = q;
+        value_[s] = q;
+        solution_.policy[s] = static_cast<Action>(c - mdp_.choice_begin(s));
+      }
+      largest = std::max(largest, value_[s] - before);
+    }
+    ++solution_.sweeps;
+    solution_.backups += mdp_.states();
+    return largest;
+  }
+
+  // Step 4.
+  Solution finish() {
+    TotalCertificate certificate = certify_total(mdp_, live_, solution_.policy, value_);
+    solution_.lower = std::move(certificate.lower);
+    solution_.upper = std::move(certificate.upper);
+    solution_.discount = 1.0;
+    conclude(solution_, settings_.width);
+    return std::move(solution_);
+  }
+
+  const Mdp& mdp_;
+  const SolveSettings& settings_;
+  std::vector<std::uint8_t> live_;
+  std::vector<double> value_;
+  std::vector<bool> outside_;
+  double reward_size_ = 0.0;
+  Solution solution_;
+};
+
+}  // namespace
+
+Result<Solution> solve_undiscounted(const Mdp& mdp, const SolveSettings& settings,
+                                    std::string_view method) {
+  if (auto error = undiscounted_error(mdp)) return *error;
+  return solve_ending(mdp, settings, method);
+}
+
+Solution solve_ending(const Mdp& mdp, const SolveSettings& settings, std::string_view method) {
+  Ending ending = find_ending(mdp);
+  Solution solution;
+  if (mdp.deterministic()) {
+    solution.policy = std::move(ending.policy);
+    improve_to_optimum(mdp, settings, 1.0, ending.live, solution);
+  } else {
+    solution = EndingIteration(mdp, settings, std::move(ending)).run();
+  }
+  solution.method = method;
+  return solution;
+}
+
+}  // namespace quoll
