@@ -116,6 +116,7 @@ struct Target {
 };
 
 Result<Target> target_of(const std::string& path) {
+  if (path.empty()) return Error{.expected = "a file name expected"};
   Target target{.path = path};
   target.exists = ::stat(path.c_str(), &target.status) == 0;
   if (!target.exists) {

@@ -1,6 +1,7 @@
 #pragma once
-// Elementary functions with the same bits on every machine: only + - * / and sqrt, correctly rounded by
-// IEEE 754, and no fused multiply-add (-ffp-contract=off). Errors are measured in tests/base/math_test.
+// Elementary functions with the same bits on every machine: only + - * / and sqrt, correctly
+// rounded by IEEE 754, and no fused multiply-add (-ffp-contract=off). Errors are measured in
+// tests/base/math_test.
 
 #include <cstdint>
 

@@ -1,6 +1,7 @@
 #pragma once
 // A settings struct says once, in describe(Describer&), what each field is called, which values it
-// takes and what it means. Command line, TOML, help, manual page, reports and checkpoints read that.
+// takes and what it means. Command line, TOML, help, manual page, reports and checkpoints read
+// that.
 
 #include <cstdint>
 #include <limits>
@@ -21,8 +22,8 @@ struct Choice {
 };
 
 /// One described field. The pointers lead into the described struct, which must outlive this. Both
-/// bounds are allowed values; an end that is excluded is given by the next double inside, and shown as
-/// such: low = denorm_min, high = 1 is "(0, 1]".
+/// bounds are allowed values; an end that is excluded is given by the next double inside, and shown
+/// as such: low = denorm_min, high = 1 is "(0, 1]".
 struct Setting {
   std::string_view name;      ///< snake_case key; the flag is the same with '-' for '_'
   std::string_view sentence;  ///< one sentence for people
@@ -68,8 +69,8 @@ std::string text_of(const Setting& setting);
 /// What the field takes, for help: "number in [0, 1]", "uniform | greedy | ...".
 std::string range_of(const Setting& setting);
 
-/// Parses `text` into the field; a nan is no number here. On an error the field is unchanged. Errors
-/// name the key as `place` (a flag or file:line), the range and the nearest word.
+/// Parses `text` into the field; a nan is no number here. On an error the field is unchanged.
+/// Errors name the key as `place` (a flag or file:line), the range and the nearest word.
 Result<void> assign(const Setting& setting, std::string_view text, std::string_view place);
 
 /// The setting called `name` ('-' and '_' are the same), or nullptr.

@@ -16,21 +16,21 @@ std::string_view trim(std::string_view text);
 /// The pieces of `text` between separators, each trimmed; "" gives one empty piece.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
-/// The whole of `text` as a finite or infinite decimal number, also a fraction "1/3"; independent of
-/// the locale. Nothing when any letter is left over or a double cannot hold it (1e400).
+/// The whole of `text` as a finite or infinite decimal number, also a fraction "1/3"; independent
+/// of the locale. Nothing when any letter is left over or a double cannot hold it (1e400).
 std::optional<double> parse_number(std::string_view text);
 
 /// The whole of `text` as an unsigned integer below 2^64, also "1e6" and "2_000".
 std::optional<std::uint64_t> parse_count(std::string_view text);
 
-/// The fewest digits that read back as the same number: "0.1", "100000", "1e+30", "inf", "nan"; with an
-/// exponent below 1e-4 and from 1e16.
+/// The fewest digits that read back as the same number: "0.1", "100000", "1e+30", "inf", "nan";
+/// with an exponent below 1e-4 and from 1e16.
 std::string shortest(double value);
 std::string shortest(float value);
 
-/// The name with the smallest edit distance to `word` (transpositions count 1), if it is near enough
-/// to be a slip of the hand: at most 1 + length / 4 edits. Empty otherwise.
-/// Case does not count, nor '-' for '_'; of equally near names the first one.
+/// The name with the smallest edit distance to `word` (transpositions count 1), if it is near
+/// enough to be a slip of the hand: at most 1 + length / 4 edits. Empty otherwise. Case does not
+/// count, nor '-' for '_'; of equally near names the first one.
 std::string nearest(std::string_view word, std::span<const std::string_view> names);
 std::string nearest(std::string_view word, std::span<const std::string> names);
 
