@@ -37,9 +37,7 @@ class Canvas {
 
   void line(int x1, int y1, int x2, int y2) {
     const int steps = std::max({std::abs(x2 - x1), std::abs(y2 - y1), 1});
-    for (int i = 0; i <= steps; ++i) {
-      dot(x1 + (x2 - x1) * i / steps, y1 + (y2 - y1) * i / steps);
-    }
+    for (int i = 0; i <= steps; ++i) dot(between(x1, x2, i, steps), between(y1, y2, i, steps));
   }
 
   std::string row(std::uint32_t r) const {
@@ -58,6 +56,12 @@ class Canvas {
   }
 
  private:
+  /// The whole number nearest to a + (b - a) * i / steps; halves upwards.
+  static int between(int a, int b, int i, int steps) {
+    const int doubled = 2 * (a * (steps - i) + b * i) + steps;
+    return doubled / (2 * steps);
+  }
+
   std::size_t columns_;
   bool unicode_;
   int width_ = 0, height_ = 0;
@@ -88,7 +92,7 @@ void draw(Canvas& canvas, const Curve& curve, const AxisRange& x, const AxisRang
 /// The label of each row of the chart, "" where no tick falls.
 std::vector<std::string> row_labels(const AxisRange& y, std::uint32_t rows) {
   std::vector<std::string> labels(rows);
-  for (const double tick : axis_ticks(y.low, y.high, std::max(2, static_cast<int>(rows) / 2))) {
+  for (const double tick : axis_ticks(y.low, y.high, std::max(2, static_cast<int>(rows) * 2 / 3))) {
     const int row = static_cast<int>(rows) - 1 - place(tick, y, static_cast<int>(rows));
     labels[static_cast<std::size_t>(row)] = number_text(tick);
   }
@@ -99,7 +103,7 @@ std::vector<std::string> row_labels(const AxisRange& y, std::uint32_t rows) {
 std::string x_axis(const AxisRange& x, std::uint32_t columns, std::size_t margin, bool unicode) {
   std::vector<bool> mark(columns, false);
   std::string numbers(margin + 1, ' ');
-  for (const double tick : axis_ticks(x.low, x.high, std::max(2, static_cast<int>(columns) / 12))) {
+  for (const double tick : axis_ticks(x.low, x.high, std::max(2, static_cast<int>(columns) / 8))) {
     const auto at = static_cast<std::size_t>(place(tick, x, static_cast<int>(columns)));
     const std::string label = scaled_text(tick);
     const std::size_t middle = margin + 1 + at;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "quoll/report/table.hpp"
-
 namespace quoll {
 
 namespace {
@@ -45,12 +43,12 @@ std::vector<ArrowLine> lines_of(const GraphView& view, std::uint64_t choice, std
   const bool named =
       chance || view.q.empty() || !says_target(name, mdp.state_name(mdp.next(outcome)));
   std::string first = named ? name : "";
-  if (!view.q.empty() && main) first += (named ? " " : "") + number_text(view.q[choice]);
+  if (!view.q.empty() && main) first += (named ? " " : "") + label_number(view.q[choice]);
   std::vector<ArrowLine> lines;
   if (!first.empty()) lines.push_back({first, color, optimal});
   const double reward = mdp.reward(choice, outcome);
-  std::string second = chance ? "p " + number_text(mdp.probability(outcome)) : "";
-  if (reward != 0) second += (second.empty() ? "reward " : ", reward ") + number_text(reward);
+  std::string second = chance ? "p " + label_number(mdp.probability(outcome)) : "";
+  if (reward != 0) second += (second.empty() ? "reward " : ", reward ") + label_number(reward);
   if (!second.empty()) lines.push_back({second, reward != 0 ? palette::orange : palette::grey});
   return lines;
 }

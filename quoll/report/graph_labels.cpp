@@ -25,15 +25,19 @@ bool holds(const Box& box, const GraphPoint& p) {
   return p.x > box.x && p.x < box.right() && p.y > box.y && p.y < box.bottom();
 }
 
-/// What a label in `box` would hide of arrows that are not its own; heads weigh most.
+/// What a label in `box` would hide of arrows; heads weigh most.
 double hidden(const std::vector<Arrow>& arrows, std::size_t own, const Box& box) {
   double cost = 0;
   for (std::size_t i = 0; i < arrows.size(); ++i) {
     const GraphPoint tip = arrows[i].samples.back();
     const Box head{tip.x - head_reach, tip.y - head_reach, 2 * head_reach, 2 * head_reach};
     if (box.overlaps(head)) cost += 12;
-    if (i == own) continue;
-    for (const GraphPoint& p : arrows[i].samples) cost += holds(box, p) ? 3 : 0;
+    int covered = 0;
+    for (const GraphPoint& p : arrows[i].samples) covered += holds(box, p);
+    if (i != own) cost += 3 * covered;
+    // A label may stand on its own arrow as long as most of it can still be seen.
+    const double share = covered / static_cast<double>(arrows[i].samples.size());
+    if (i == own && share > 0.4) cost += 25 * (share - 0.4);
   }
   return cost;
 }

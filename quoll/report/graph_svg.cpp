@@ -8,7 +8,6 @@
 
 #include "quoll/report/graph_labels.hpp"
 #include "quoll/report/legend.hpp"
-#include "quoll/report/table.hpp"
 
 namespace quoll {
 
@@ -42,7 +41,7 @@ bool few_starts(const Mdp& mdp) {
 NodeText node_text(const GraphView& view, State s) {
   const Mdp& mdp = *view.mdp;
   NodeText text{mdp.state_name(s), "", "", ""};
-  if (!view.value.empty()) text.value = "V = " + number_text(view.value[s]);
+  if (!view.value.empty()) text.value = "V = " + label_number(view.value[s]);
   const auto start = mdp.start();
   if (mdp.terminal(s)) {
     text.pill = "end";
@@ -133,7 +132,7 @@ Drawing drawing_of(const GraphView& view, const std::vector<NodeText>& texts) {
   for (const Arrow& arrow : d.arrows) {
     widest_label = std::max(widest_label, label_size(arrow).width);
   }
-  double unit = std::clamp(widest_node + widest_label + 40, 160.0, 320.0) / level_stretch;
+  double unit = std::clamp(widest_node + widest_label + 60, 180.0, 320.0) / level_stretch;
   for (;; unit *= 1.08) {
     arrange(d, places, unit, texts);
     if (d.free) break;
@@ -178,7 +177,7 @@ void draw_arrow(SvgWriter& svg, const Arrow& arrow) {
 }
 
 void draw_label(SvgWriter& svg, const Arrow& arrow, const Box& box) {
-  svg.rect(box, 4, R"(fill="#ffffff" fill-opacity="0.92")");
+  svg.rect(box, 4, R"(fill="#ffffff")");
   double baseline = box.y + 2 + arrow_font * 0.9;
   for (const ArrowLine& line : arrow.lines) {
     svg.text(box.x + box.width / 2, baseline, line.text,
@@ -207,6 +206,13 @@ void draw_node(SvgWriter& svg, const Box& box, const NodeText& text) {
            {.size = pill_font, .color = "#ffffff", .bold = true});
 }
 
+std::string starts_text(const Mdp& mdp) {
+  std::uint64_t moving = 0;
+  for (State s = 0; s < mdp.states(); ++s) moving += !mdp.terminal(s);
+  const std::uint64_t starts = mdp.start().size();
+  return starts == moving ? "start: any state but ends" : fmt::format("start: {} states", starts);
+}
+
 std::vector<LegendItem> legend_of(const GraphView& view, const Drawing& d) {
   using Kind = LegendItem::Kind;
   std::vector<LegendItem> items;
@@ -217,7 +223,7 @@ std::vector<LegendItem> legend_of(const GraphView& view, const Drawing& d) {
   }
   if (!view.q.empty()) items.push_back({Kind::none, "", "number on an arrow: Q of the move"});
   if (!few_starts(*view.mdp)) {
-    items.push_back({Kind::none, "", fmt::format("starts: {} states", view.mdp->start().size())});
+    items.push_back({Kind::none, "", starts_text(*view.mdp)});
   }
   return items;
 }

@@ -84,8 +84,9 @@ void draw_squares(SvgWriter& svg, const Frame& f) {
   fill(goals, palette::green);
   fill(pits, palette::orange);
   if (!starts.empty()) {
-    svg.path(starts, fmt::format(R"(fill="none" stroke="{}" stroke-width="{}")", palette::amber,
-                                 svg_number(std::max(1.5, f.size / 16))));
+    const std::string fill_color = f.size < roomy_cell ? std::string(palette::amber) : "none";
+    svg.path(starts, fmt::format(R"(fill="{}" stroke="{}" stroke-width="{}")", fill_color,
+                                 palette::amber, svg_number(std::max(1.5, f.size / 16))));
   }
 }
 
@@ -190,7 +191,7 @@ void draw_letters(SvgWriter& svg, const Frame& f) {
         svg.text(x, y + font * 0.36, cell_number(f.view.value[s]), {.size = font, .color = color});
       }
       if (mark == CellMark::start && roomy) {
-        svg.text(box.x + f.size * 0.08, box.y + f.size * 0.24, "S",
+        svg.text(box.x + f.size * 0.11, box.y + f.size * 0.27, "S",
                  {.size = f.size * 0.19, .color = color, .bold = true, .anchor = "start"});
       }
     }
@@ -207,7 +208,8 @@ std::vector<LegendItem> legend_items(const Frame& f) {
       std::find(f.cells.state.begin(), f.cells.state.end(), no_state) != f.cells.state.end();
   if (walls) items.push_back({LegendItem::Kind::square, palette::wall, "wall"});
   if (present(f.cells, CellMark::start)) {
-    items.push_back({LegendItem::Kind::ring, palette::amber, "start"});
+    const auto sign = f.size < roomy_cell ? LegendItem::Kind::square : LegendItem::Kind::ring;
+    items.push_back({sign, palette::amber, "start"});
   }
   if (present(f.cells, CellMark::goal)) {
     items.push_back({LegendItem::Kind::square, palette::green, "goal"});

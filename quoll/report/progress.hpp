@@ -11,7 +11,7 @@ struct Progress {
   std::uint64_t done = 0;
   std::uint64_t total = 0;    ///< 0 = not known: no bar, no ETA
   double seconds = 0;         ///< since the start
-  std::string_view extra;     ///< e.g. "return 0.93"
+  std::string_view extra{};   ///< e.g. "return 0.93"
   std::uint64_t resumed = 0;  ///< part of `done` that was done before this clock started
   std::string_view unit = "steps";
 };

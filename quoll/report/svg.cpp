@@ -105,6 +105,13 @@ double text_width(std::string_view text, double size, bool bold) {
   return width * size * (bold ? 1.1 : 1.0);
 }
 
+std::string label_number(double value) {
+  const double size = value < 0 ? -value : value;
+  std::string text =
+      size >= 1000 && size < 1e6 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
+  return text == "-0" ? "0" : text;
+}
+
 std::string svg_number(double value) {
   std::string text = fmt::format("{:.2f}", value);
   text.erase(text.find_last_not_of('0') + 1);

@@ -74,6 +74,9 @@ class SvgWriter {
   std::vector<SvgLabel> labels_;
 };
 
+/// A value for a label: 4 significant digits, but whole up to a million.
+std::string label_number(double value);
+
 /// A coordinate with at most 2 decimals.
 std::string svg_number(double value);
 
