@@ -21,12 +21,12 @@ namespace quoll {
 template <bool one_outcome>
 double backup(const Mdp& mdp, double discount, const double* value, std::uint64_t choice) {
   if constexpr (one_outcome) {
-    return mdp.reward(choice) + discount * value[mdp.arrays().next[choice]];
+    return mdp.reward(choice) + discount * value[mdp.next(choice)];
   } else {
     double mean = 0.0;
     const std::uint64_t end = mdp.outcome_end(choice);
     for (std::uint64_t o = mdp.outcome_begin(choice); o < end; ++o) {
-      mean += mdp.arrays().probability[o] * value[mdp.arrays().next[o]];
+      mean += mdp.probability(o) * value[mdp.next(o)];
     }
     return mdp.reward(choice) + discount * mean;
   }

@@ -1,0 +1,237 @@
+#include "quoll/solve/optimality.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "quoll/base/text.hpp"
+#include "quoll/model/graph.hpp"
+#include "quoll/solve/ending.hpp"
+#include "quoll/solve/evaluate.hpp"
+#include "quoll/solve/functional_graph.hpp"
+#include "quoll/solve/span_bounds.hpp"
+#include "quoll/solve/sweep.hpp"
+#include "quoll/solve/total_certificate.hpp"
+
+namespace quoll {
+
+namespace {
+
+constexpr double tolerance = 1e-9;  // relative loss that still counts as optimal
+
+double middle(double lower, double upper) {
+  return lower == upper ? lower : lower + 0.5 * (upper - lower);
+}
+
+double difference_up(double a, double b) {
+  return a == b ? 0.0 : add_up(a, -b);
+}
+
+class Judge {
+ public:
+  Judge(const Mdp& mdp, const Solution& exact, std::span<const Action> policy, double discount)
+      : mdp_(mdp), exact_(exact), policy_(policy), discount_(discount), upper_(exact.upper) {}
+
+  Optimality run(std::span<const State> from) {
+    const std::vector<bool> reached = reachable(mdp_, from);
+    for (State s = 0; s < mdp_.states(); ++s) {
+      if (mdp_.terminal(s)) continue;
+      if (reached[s]) {
+        asked_.push_back(s);
+      } else {
+        ++out_.unreachable;
+      }
+    }
+    Result<Evaluation> value = evaluate(mdp_, policy_, discount_, 0.0);
+    if (!value) {
+      out_.proof = message(value.error());
+      return out_;
+    }
+    value_ = std::move(*value);
+    decide();
+    if (!out_.optimal) {
+      tighten_upper();
+      decide();
+    }
+    measure_regret();
+    return out_;
+  }
+
+ private:
+  void decide() {
+    for (const State s : asked_) {
+      if (policy_[s] == no_action) return conclude(false, "no action is known in state ", s);
+    }
+    if (shortest_ways()) return;
+    bool exact = true;
+    std::optional<State> open;
+    for (const State s : asked_) {
+      const double loss = difference_up(upper_[s], value_.lower[s]);
+      if (value_.lower[s] > upper_[s]) {
+        out_.proof = "not decided: the policy earns more by never ending from " + name(s);
+        return;
+      }
+      if (surely_lost(s)) return conclude(false, "more is earned by another action from ", s);
+      exact = exact && loss == 0.0;
+      if (!(loss <= tolerance * least_size(s)) && !open) open = s;
+    }
+    if (open) {
+      out_.proof = "not decided: in state " + name(*open) + " the bounds leave a loss of up to " +
+                   shortest(difference_up(upper_[*open], value_.lower[*open]));
+      return;
+    }
+    out_.optimal = true;
+    out_.proof = exact ? "exact: the policy's value equals the optimal value in every state"
+                       : "certified: the loss is at most 1e-9 of |V*| in every state";
+  }
+
+  void conclude(bool optimal, std::string why, State s) {
+    out_.optimal = optimal;
+    out_.proof = std::move(why) + name(s);
+  }
+
+  std::string name(State s) const { return mdp_.state_name(s); }
+
+  // Deterministic models with two rewards: an action is a maximiser exactly if it lies on a way
+  // with the fewest moves. Integers decide, also where the values themselves underflow.
+  bool shortest_ways() {
+    if (!mdp_.deterministic()) return false;
+    const std::optional<TwoRewards> rewards = two_rewards(mdp_);
+    const Discount discount(discount_);
+    if (!rewards || !fewer_moves_win(*rewards, discount, true)) return false;
+    const std::vector<std::uint32_t> fewest = moves_to_end(mdp_);
+    const std::vector<std::uint32_t> taken = evaluate_graph(mdp_, policy_, discount).steps;
+    const auto longer = std::find_if(asked_.begin(), asked_.end(), [&](State s) {
+      return taken[s] != (fewest[s] == unreached ? never : fewest[s]);
+    });
+    if (longer == asked_.end()) {
+      out_.optimal = true;
+      out_.proof = "exact graph: every chosen action lies on a way with the fewest moves";
+      return true;
+    }
+    // Each needless move then costs the share 1 - discount of V*.
+    if (rewards->move != 0.0 || !(1.0 - discount.upper > 2.0 * tolerance)) return false;
+    conclude(false, "exact graph: there is a shorter way from ", *longer);
+    return true;
+  }
+
+  double best_lower(State s) const { return std::max(exact_.lower[s], value_.lower[s]); }
+
+  double least_size(State s) const {
+    const double lower = best_lower(s);
+    if (lower <= 0.0 && upper_[s] >= 0.0) return 0.0;
+    return std::min(std::fabs(lower), std::fabs(upper_[s]));
+  }
+
+  bool surely_lost(State s) const {
+    const double lower = exact_.lower[s];
+    if (!(lower > value_.upper[s])) return false;
+    if (value_.upper[s] == -infinity) return true;
+    const double size = std::max(std::fabs(lower), std::fabs(upper_[s]));
+    return -add_up(-lower, value_.upper[s]) > tolerance * size;
+  }
+
+  // A second upper bound, from how far the policy's own value is from being inductive.
+  void tighten_upper() {
+    std::vector<double> bound = value_.upper;
+    const Discount discount(discount_);
+    if (mdp_.deterministic()) {
+      std::vector<State> order;
+      for (State s = 0; s < mdp_.states(); ++s) {
+        if (!mdp_.terminal(s)) order.push_back(s);
+      }
+      if (!raise_until_inductive(mdp_, discount, order, bound)) return;
+    } else {
+      std::vector<double> mean(mdp_.states());
+      for (State s = 0; s < mdp_.states(); ++s) mean[s] = middle(value_.lower[s], value_.upper[s]);
+      bound = discount.none() ? undiscounted_upper(mean) : discounted_upper(mean);
+    }
+    for (State s = 0; s < mdp_.states(); ++s) upper_[s] = std::min(upper_[s], bound[s]);
+  }
+
+  std::vector<double> discounted_upper(const std::vector<double>& value) const {
+    std::vector<double> bound(mdp_.states(), 0.0);
+    std::vector<Action> greedy(mdp_.states(), no_action);
+    const Residual residual = sweep_all(mdp_, discount_, value, bound, greedy, 1);
+    double size = 0.0;
+    for (const double v : value) size = std::max(size, std::fabs(v));
+    for (const double v : bound) size = std::max(size, std::fabs(v));
+    const SpanBounds more =
+        span_bounds(ModelScale(mdp_), discount_, residual.least, residual.greatest, size);
+    for (State s = 0; s < mdp_.states(); ++s) {
+      if (!mdp_.terminal(s)) bound[s] = add_up(bound[s], more.upper);
+    }
+    return bound;
+  }
+
+  std::vector<double> undiscounted_upper(const std::vector<double>& value) const {
+    const Ending ending = find_ending(mdp_);
+    std::vector<Action> policy(policy_.begin(), policy_.end());
+    for (State s = 0; s < mdp_.states(); ++s) {
+      const bool usable = std::isfinite(value[s]) && policy[s] != no_action;
+      if (ending.live[s] != 0 && !usable) return std::vector<double>(mdp_.states(), infinity);
+    }
+    return certify_total(mdp_, ending.live, policy, value).upper;
+  }
+
+  void measure_regret() {
+    for (const State s : asked_) {
+      const double loss = std::max(0.0, difference_up(upper_[s], value_.lower[s]));
+      if (loss > out_.regret || s == asked_.front()) {
+        out_.regret = loss;
+        out_.worst = s;
+      }
+      const double best = middle(exact_.lower[s], std::max(exact_.lower[s], upper_[s]));
+      const double own = middle(value_.lower[s], value_.upper[s]);
+      if (best == own || !(best > own)) continue;
+      out_.regret_estimate = std::max(out_.regret_estimate, std::min(best - own, out_.regret));
+    }
+  }
+
+  const Mdp& mdp_;
+  const Solution& exact_;
+  std::span<const Action> policy_;
+  double discount_;
+  std::vector<double> upper_;  // of V*
+  std::vector<State> asked_;
+  Evaluation value_;  // of the policy
+  Optimality out_;
+};
+
+}  // namespace
+
+Optimality judge(const Mdp& mdp, const Solution& exact, std::span<const Action> policy,
+                 std::span<const State> from, double discount) {
+  return Judge(mdp, exact, policy, discount).run(from);
+}
+
+double q_star(const Mdp& mdp, std::span<const double> value, std::uint64_t choice,
+              double discount) {
+  return backup<false>(mdp, discount, value.data(), choice);
+}
+
+std::vector<Action> optimal_actions(const Mdp& mdp, const Solution& solution, State state) {
+  if (mdp.terminal(state)) return {};
+  const auto value = [&](State s) { return middle(solution.lower[s], solution.upper[s]); };
+  std::vector<double> q;
+  double best = -infinity;
+  for (std::uint64_t c = mdp.choice_begin(state); c < mdp.choice_end(state); ++c) {
+    double mean = 0.0;
+    for (std::uint64_t o = mdp.outcome_begin(c); o < mdp.outcome_end(c); ++o) {
+      mean += mdp.probability(o) * value(mdp.next(o));
+    }
+    q.push_back(mdp.reward(c) + solution.discount * mean);
+    best = std::max(best, q.back());
+  }
+  const double interval = solution.upper[state] == solution.lower[state]
+                              ? 0.0
+                              : solution.upper[state] - solution.lower[state];
+  const double within = std::max(tolerance * std::fabs(value(state)), interval);
+  std::vector<Action> actions;
+  for (Action a = 0; a < q.size(); ++a) {
+    if (q[a] == best || q[a] >= best - within) actions.push_back(a);
+  }
+  return actions;
+}
+
+}  // namespace quoll
