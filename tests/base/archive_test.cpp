@@ -11,8 +11,8 @@
 #include "quoll/base/random.hpp"
 
 namespace {
-/// The largest single allocation since it was last set to 0.
-std::size_t largest_request = 0;
+/// The largest single allocation of this thread since it was last set to 0.
+thread_local std::size_t largest_request = 0;
 }  // namespace
 
 // Replaced to see that a damaged length never reaches the allocator. Not inlined, since the
