@@ -30,14 +30,18 @@ constexpr double unit(std::uint64_t bits) {
   return static_cast<double>(bits >> 11) * 0x1.0p-53;
 }
 
-/// One stream of random numbers: 16 bytes, copied and stored like any value.
+/// One stream of random numbers: 8 bytes, copied and stored like any value. Its state is the key plus
+/// the golden ratio times the number of draws made, so it can be moved to any draw at once.
 struct Rng {
-  std::uint64_t key = 0;
-  std::uint64_t counter = 0;  ///< draws made so far
+  std::uint64_t state = 0;
 
-  /// The draw number `index` (from 1) without moving the stream.
-  constexpr std::uint64_t at(std::uint64_t index) const { return mix(key + golden_gamma * index); }
-  constexpr std::uint64_t next() { return at(++counter); }
+  constexpr std::uint64_t next() { return mix(state += golden_gamma); }
+
+  /// The draw `ahead` places on (1 = what next() would give) without moving the stream.
+  constexpr std::uint64_t peek(std::uint64_t ahead) const {
+    return mix(state + golden_gamma * ahead);
+  }
+  constexpr void skip(std::uint64_t draws) { state += golden_gamma * draws; }
 
   /// Uniform in [0, 1).
   constexpr double uniform() { return unit(next()); }
@@ -49,8 +53,7 @@ struct Rng {
 
   template <class Archive>
   void persist(Archive& archive) {
-    archive("key", key);
-    archive("counter", counter);
+    archive("state", state);
   }
 };
 
@@ -60,7 +63,7 @@ constexpr Rng stream(std::uint64_t seed, std::string_view purpose, std::uint64_t
   for (const char letter : purpose) {
     hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3ULL;
   }
-  return {mix(mix(mix(seed + golden_gamma) ^ hash) + golden_gamma * lane), 0};
+  return {mix(mix(mix(seed + golden_gamma) ^ hash) + golden_gamma * lane)};
 }
 
 }  // namespace quoll

@@ -27,7 +27,8 @@ class Environment {
   virtual void restart(std::span<const std::uint8_t> restart, Experience& now) = 0;
   /// Reads state and action; fills feedback and next (and next_observation) of every lane.
   virtual void step(Experience& now) = 0;
-  /// Puts a lane into a state; false when this world cannot be set.
+  /// Puts a lane into a state (the caller writes the state column too); false when this world cannot
+  /// be set.
   virtual bool set(std::uint32_t lane, State state) = 0;
   virtual void persist(Archive& archive) = 0;
 };

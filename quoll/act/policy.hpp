@@ -1,0 +1,38 @@
+#pragma once
+// The border to whatever picks actions: a table, a network, a search, a uniform coin.
+
+#include <span>
+#include <vector>
+
+#include "quoll/base/random.hpp"
+#include "quoll/model/experience.hpp"
+
+namespace quoll {
+
+class Policy {
+ public:
+  virtual ~Policy() = default;
+  /// Chooses an action for each lane of `now`; lane i draws from streams[i]. Does not allocate.
+  virtual void act(const Experience& now, std::span<Action> out, std::span<Rng> streams) const = 0;
+};
+
+/// One action per state. As a function object it costs one load: noexcept, no allocation, no locks.
+class TablePolicy final : public Policy {
+ public:
+  TablePolicy() = default;
+  explicit TablePolicy(std::vector<Action> actions) : actions_(std::move(actions)) {}
+
+  /// The action for a state; no_action for an end or a state this policy knows nothing about.
+  Action operator()(State state) const noexcept {
+    return state < actions_.size() ? actions_[state] : no_action;
+  }
+  void act(const Experience& now, std::span<Action> out, std::span<Rng>) const override {
+    for (std::size_t lane = 0; lane < out.size(); ++lane) out[lane] = (*this)(now.state[lane]);
+  }
+  std::span<const Action> actions() const { return actions_; }
+
+ private:
+  std::vector<Action> actions_;
+};
+
+}  // namespace quoll

@@ -1,0 +1,198 @@
+#include "quoll/cli/common.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "quoll/base/text.hpp"
+#include "quoll/experiment/config.hpp"
+#include "quoll/report/progress.hpp"
+
+namespace quoll::cli {
+
+Exit fail(const Error& error) {
+  std::fflush(stdout);
+  std::fputs(("quoll: " + message(error) + "\n").c_str(), stderr);
+  return user_error;
+}
+
+void WorldOption::declare(Options& options) {
+  options.word("world", name, "a built-in world (see 'quoll list worlds') or a file");
+  options.option("--with", &with, "KEY=VALUE", "a parameter of the world; may be repeated");
+}
+
+namespace {
+
+Result<std::pair<std::string, std::string>> key_value(const std::string& text,
+                                                      const std::string& flag) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    return Error{flag, 0, 0, "key=value expected, not '" + text + "'", ""};
+  }
+  return std::pair{text.substr(0, equals), text.substr(equals + 1)};
+}
+
+}  // namespace
+
+Result<WorldSource> WorldOption::source() const {
+  WorldSource source{name, {}};
+  for (const std::string& text : with) {
+    const auto parameter = key_value(text, "--with");
+    if (!parameter) return parameter.error();
+    source.parameters.push_back(*parameter);
+  }
+  return source;
+}
+
+Result<World> WorldOption::open() const {
+  const Result<WorldSource> from = source();
+  if (!from) return from.error();
+  return find_world(from->name, from->parameters);
+}
+
+void OutputOption::declare(Options& options, const std::string& file_sentence) {
+  options.flag("--json", &json, "print one JSON object on stdout");
+  options.flag("--quiet", &quiet, "no progress on stderr");
+  options.flag("--all", &all, "complete lists, however long");
+  if (!file_sentence.empty()) options.option("-o,--output", &file, "FILE", file_sentence);
+}
+
+void GivenSettings::declare(Options& options, std::vector<Setting> settings) {
+  declare_flags(options, std::move(settings));
+  options.option("--set", &set, "KEY=VALUE", "any setting by its key; may be repeated");
+  options.option("--config", &config, "FILE.toml", "settings from a TOML file");
+}
+
+void GivenSettings::declare_flags(Options& options, std::vector<Setting> settings) {
+  for (const Setting& setting : settings) {
+    const std::string key(setting.name);
+    std::string names = "--" + key;
+    std::replace(names.begin(), names.end(), '_', '-');
+    if (key == "discount") names += ",--gamma";
+    const std::string initial = text_of(setting);
+    const std::string sentence =
+        std::string(setting.sentence) + (initial.empty() ? "" : " [" + initial + "]");
+    const auto take = [this, key](const std::string& text) { flags.emplace_back(key, text); };
+    if (std::holds_alternative<bool*>(setting.field)) {
+      options.flag(names, take, std::string(setting.sentence));
+    } else {
+      options.option(names, take, range_of(setting), sentence);
+    }
+  }
+}
+
+Result<std::vector<std::pair<std::string, std::string>>> GivenSettings::given() const {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const std::string& text : set) {
+    auto pair = key_value(text, "--set");
+    if (!pair) return pair.error();
+    std::replace(pair->first.begin(), pair->first.end(), '-', '_');
+    pairs.push_back(std::move(*pair));
+  }
+  pairs.insert(pairs.end(), flags.begin(), flags.end());
+  return pairs;
+}
+
+Result<void> GivenSettings::apply(std::vector<Setting> settings) const {
+  if (!config.empty()) {
+    const Result<void> read = read_config(config, settings);
+    if (!read) return read;
+  }
+  const auto pairs = given();
+  if (!pairs) return pairs.error();
+  for (const auto& [key, text] : *pairs) {
+    const Setting* setting = find(settings, key);
+    if (!setting) {
+      Nearest nearest(key);
+      for (const Setting& one : settings) nearest.offer(one.name);
+      return Error{"--set", 0, 0, "no setting '" + key + "'", nearest.best()};
+    }
+    std::string flag = "--" + key;
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    const Result<void> assigned = assign(*setting, text, flag);
+    if (!assigned) return assigned;
+  }
+  return {};
+}
+
+bool print(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
+      std::fflush(stdout) == 0) {
+    return true;
+  }
+  fail({"stdout", 0, 0, std::string("cannot be written: ") + std::strerror(errno), ""});
+  return false;
+}
+
+TerminalStyle stdout_style() {
+  TerminalStyle style;
+  const bool terminal = isatty(STDOUT_FILENO) != 0;
+  winsize size{};
+  if (terminal && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+    style.width = size.ws_col;
+  } else {
+    style.width = 100;
+  }
+  const char* no_color = std::getenv("NO_COLOR");
+  const char* term = std::getenv("TERM");
+  style.color = terminal && (no_color == nullptr || *no_color == '\0') &&
+                !(term != nullptr && std::strcmp(term, "dumb") == 0);
+  std::string locale;
+  for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+    const char* value = std::getenv(name);
+    if (value != nullptr && *value != '\0') {
+      locale = value;
+      break;
+    }
+  }
+  style.unicode = locale != "C" && locale != "POSIX";
+  return style;
+}
+
+bool stderr_is_terminal() { return isatty(STDERR_FILENO) != 0; }
+
+namespace {
+volatile std::sig_atomic_t interrupt_count = 0;
+
+void on_interrupt(int signal) {
+  interrupt_count = interrupt_count + 1;
+  if (interrupt_count > 1) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+}
+}  // namespace
+
+void catch_interrupts() {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+}
+bool interrupted() { return interrupt_count > 0; }
+
+void ProgressDisplay::show(std::uint64_t done_now, std::uint64_t total, double seconds,
+                           const std::string& extra, std::uint64_t resumed) {
+  const bool terminal = stderr_is_terminal();
+  if (quiet_ || seconds - last_ < (terminal ? 0.1 : 2.0) || seconds < 0.5) return;
+  last_ = seconds;
+  const Progress progress{done_now, total, seconds, extra, resumed, "steps"};
+  if (terminal) {
+    winsize size{};
+    const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    std::fputs(progress_bar(progress, known ? size.ws_col : 80).c_str(), stderr);
+    shown_ = true;
+  } else {
+    std::fputs(progress_line(progress).c_str(), stderr);
+  }
+  std::fflush(stderr);
+}
+
+ProgressDisplay::~ProgressDisplay() {
+  if (shown_) std::fputs("\r\033[K", stderr);
+}
+
+}  // namespace quoll::cli

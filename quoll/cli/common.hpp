@@ -1,0 +1,82 @@
+#pragma once
+// What the verbs share: opening worlds, settings from flags and files, output, errors, interrupts.
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "quoll/base/error.hpp"
+#include "quoll/base/settings.hpp"
+#include "quoll/cli/verb.hpp"
+#include "quoll/env/world.hpp"
+#include "quoll/experiment/run.hpp"
+#include "quoll/report/table.hpp"
+
+namespace quoll::cli {
+
+/// Prints "quoll: message" on stderr.
+Exit fail(const Error& error);
+
+/// The world of a command line: WORLD and --with key=value.
+struct WorldOption {
+  std::string name;
+  std::vector<std::string> with;
+
+  void declare(Options& options);
+  Result<WorldSource> source() const;
+  Result<World> open() const;
+};
+
+/// --json, --quiet, --all, -o.
+struct OutputOption {
+  bool json = false;
+  bool quiet = false;
+  bool all = false;
+  std::string file;
+
+  void declare(Options& options, const std::string& file_sentence);
+};
+
+/// Settings as they were given: flags in the order of the command line, --set key=value, --config.
+struct GivenSettings {
+  std::vector<std::pair<std::string, std::string>> flags;  ///< key, text
+  std::vector<std::string> set;
+  std::string config;
+
+  /// Declares a flag for each setting, --set and --config.
+  void declare(Options& options, std::vector<Setting> settings);
+  void declare_flags(Options& options, std::vector<Setting> settings);
+  /// Applies file, then --set, then flags. Unknown keys name the nearest.
+  Result<void> apply(std::vector<Setting> settings) const;
+  /// Keys given by flag or --set, with their texts.
+  Result<std::vector<std::pair<std::string, std::string>>> given() const;
+};
+
+/// The text on stdout, at once; false (with a message) when it cannot be written.
+bool print(const std::string& text);
+
+/// What stdout takes: width, colour (a terminal and no NO_COLOR), Unicode by locale.
+TerminalStyle stdout_style();
+bool stderr_is_terminal();
+
+/// From now on Ctrl-C sets a flag instead of ending the program; a second one ends it.
+void catch_interrupts();
+bool interrupted();
+
+/// Progress of a long work on stderr: a bar on a terminal, a line every 2 s in a pipe, nothing with
+/// `quiet`. Shows nothing for works under half a second.
+class ProgressDisplay {
+ public:
+  explicit ProgressDisplay(bool quiet) : quiet_(quiet) {}
+  ~ProgressDisplay();
+  void show(std::uint64_t done_now, std::uint64_t total, double seconds, const std::string& extra,
+            std::uint64_t resumed = 0);
+
+ private:
+  bool quiet_;
+  bool shown_ = false;
+  double last_ = 0.0;
+};
+
+}  // namespace quoll::cli

@@ -1,0 +1,145 @@
+// The JSON object of `learn` (docs/json.md).
+
+#include "quoll/cli/learn_report.hpp"
+#include "quoll/report/json.hpp"
+
+namespace quoll::cli {
+namespace {
+
+void optional_bool(JsonWriter& json, std::string_view key, const std::optional<bool>& value) {
+  json.key(key);
+  if (value) json.value(*value);
+  else json.null();
+}
+
+void write_q(JsonWriter& json, const Mdp& mdp, const Estimates& estimates,
+             const std::vector<double>& q_star, bool all) {
+  std::vector<State> owner(mdp.choices());
+  for (State s = 0; s < mdp.states(); ++s) {
+    for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) owner[c] = s;
+  }
+  json.rows("q", mdp.choices(), all, [&](std::uint64_t c) {
+    json.begin_object();
+    json.member("state", mdp.state_name(owner[c])).member("action", mdp.action_name(c));
+    json.key("q").number(estimates.q[c], estimates.single_precision);
+    json.member("visits", estimates.visits[c]);
+    if (q_star.empty()) json.null_member("q_star");
+    else json.member("q_star", q_star[c]);
+    if (!estimates.reward_estimate.empty()) {
+      json.member("reward_estimate", estimates.reward_estimate[c]);
+    }
+    json.end_object();
+  });
+}
+
+void write_policy(JsonWriter& json, const Mdp& mdp, const std::vector<Action>& policy, bool all) {
+  json.rows("policy", mdp.states(), all, [&](std::uint64_t s) {
+    const auto state = static_cast<State>(s);
+    json.begin_object().member("state", mdp.state_name(state));
+    if (policy[state] == no_action) json.null_member("action");
+    else json.member("action", mdp.action_name(mdp.choice_begin(state) + policy[state]));
+    json.end_object();
+  });
+}
+
+void write_certificate(JsonWriter& json, const Run& run, const RunResult& result) {
+  const std::optional<Optimality>& judged = result.seeds.front().optimality;
+  if (!result.exact || !judged || !run.entry().sound) {
+    json.null_member("certificate");
+    return;
+  }
+  const Mdp& mdp = *run.world().mdp;
+  double lower = 0.0, upper = 0.0;
+  for (std::uint64_t i = 0; i < mdp.start().size(); ++i) {
+    lower += mdp.start_probability(i) * result.exact->lower[mdp.start()[i]];
+    upper += mdp.start_probability(i) * result.exact->upper[mdp.start()[i]];
+  }
+  json.key("certificate").begin_object();
+  json.member("lower", lower).member("upper", upper).member("gap", judged->regret);
+  json.member("basis", "model").null_member("confidence");
+  json.key("assumptions").begin_array().end_array().end_object();
+}
+
+void write_evaluation(JsonWriter& json, const Run& run, const RunResult& result) {
+  if (!run.world().mdp || run.settings().evaluation_episodes == 0) {
+    json.null_member("evaluation");
+    return;
+  }
+  const Statistics& s = result.statistics;
+  json.key("evaluation").begin_object();
+  json.member("episodes", run.settings().evaluation_episodes);
+  json.member("mean", s.mean).member("median", s.median).member("iqm", s.iqm);
+  json.member("minimum", s.minimum);
+  json.key("lower");
+  if (s.lower) json.value(*s.lower); else json.null();
+  json.key("upper");
+  if (s.upper) json.value(*s.upper); else json.null();
+  json.end_object();
+}
+
+void write_runs(JsonWriter& json, const RunResult& result) {
+  json.key("runs").begin_array();
+  for (const SeedResult& seed : result.seeds) {
+    json.begin_object().member("seed", seed.seed).member("steps", seed.steps);
+    json.member("stop", stop_name(seed.stop));
+    optional_bool(json, "optimal", seed.optimality ? seed.optimality->optimal : std::nullopt);
+    json.key("regret");
+    if (seed.optimality) json.value(seed.optimality->regret); else json.null();
+    json.member("mean", seed.played.mean).end_object();
+  }
+  json.end_array();
+}
+
+}  // namespace
+
+std::string learn_json(const Run& run, const RunResult& result, bool all) {
+  const LearnSettings& learn = run.settings().learn;
+  const SeedResult& first = result.seeds.front();
+  const Mdp* mdp = run.world().mdp.get();
+  std::uint64_t steps = 0, episodes = 0;
+  for (const SeedResult& seed : result.seeds) {
+    steps += seed.steps;
+    episodes += seed.episodes;
+  }
+  JsonWriter json(JsonStyle::pretty);
+  json.begin_object();
+  json.member("world", run.world().name).member("method", learn.method);
+  json.member("rule", learn.rule).member("discount", run.discount()).member("seed", learn.seed);
+  json.member("steps", steps).member("seconds", result.seconds);
+  json.member("steps_per_second",
+              result.seconds > 0.0 ? static_cast<double>(steps) / result.seconds : 0.0);
+  json.member("episodes", episodes).member("stop", stop_name(first.stop));
+  if (mdp) {
+    const Estimates estimates = run.trainings().front().learner().estimates();
+    write_q(json, *mdp, estimates,
+            result.exact ? q_star_all(*mdp, *result.exact, run.discount()) : std::vector<double>(),
+            all);
+    write_policy(json, *mdp, first.policy, all);
+  } else {
+    json.null_member("q").null_member("policy");
+  }
+  const bool judged = first.optimality && run.entry().sound;
+  optional_bool(json, "optimal", judged ? first.optimality->optimal : std::nullopt);
+  json.key("proof");
+  if (first.optimality) json.value(first.optimality->proof); else json.null();
+  json.key("regret");
+  if (judged) json.value(first.optimality->regret); else json.null();
+  json.key("unreachable");
+  if (first.optimality) json.value(first.optimality->unreachable); else json.null();
+  json.key("impossible");
+  if (first.impossible.found && mdp) {
+    const Impossible& found = first.impossible;
+    json.begin_object().member("step", found.step).member("state", mdp->state_name(found.state));
+    json.member("action", mdp->action_name(mdp->choice_begin(found.state) + found.action));
+    json.member("value", found.value).member("bound", found.bound).end_object();
+  } else {
+    json.null();
+  }
+  write_certificate(json, run, result);
+  write_evaluation(json, run, result);
+  write_runs(json, result);
+  json.end_object();
+  return json.text() + "\n";
+}
+
+}  // namespace quoll::cli

@@ -1,0 +1,238 @@
+#include "quoll/cli/learn_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "quoll/base/text.hpp"
+#include "quoll/model/graph.hpp"
+#include "quoll/report/curve.hpp"
+#include "quoll/report/grid_text.hpp"
+#include "quoll/report/progress.hpp"
+
+namespace quoll::cli {
+
+std::vector<double> q_star_all(const Mdp& mdp, const Solution& exact, double discount) {
+  std::vector<double> middle(mdp.states());
+  for (State s = 0; s < mdp.states(); ++s) {
+    middle[s] = exact.lower[s] == exact.upper[s] ? exact.lower[s]
+                                                 : 0.5 * (exact.lower[s] + exact.upper[s]);
+  }
+  std::vector<double> q(mdp.choices());
+  for (State s = 0; s < mdp.states(); ++s) {
+    for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
+      q[c] = mdp.terminal(s) ? 0.0 : q_star(mdp, middle, c, discount);
+    }
+  }
+  return q;
+}
+
+namespace {
+
+std::string heading(const Run& run) {
+  const LearnSettings& learn = run.settings().learn;
+  const Result<TabularSetup> setup = resolve(learn, run.world());
+  std::string text = fmt::format("learn {}   {}, rule {}, discount {}", run.world().name,
+                                 learn.method, learn.rule, shortest(run.discount()));
+  if (setup) {
+    text += fmt::format(", step size {}, actions {}, starts {}, episodes of at most {} steps",
+                        setup->step_size.text(), learn.explore, learn.start,
+                        setup->episode_steps);
+  }
+  if (run.settings().seeds > 1) {
+    text += fmt::format(", seeds {} to {}", learn.seed, learn.seed + run.settings().seeds - 1);
+  } else {
+    text += fmt::format(", seed {}", learn.seed);
+  }
+  return text + "\n";
+}
+
+// "stable after 213 steps": and what that means.
+std::string stop_sentence(const Run& run, const SeedResult& seed) {
+  const std::string after = fmt::format(" after {} steps, {} episodes, {}", grouped(seed.steps),
+                                        grouped(seed.episodes), duration_text(seed.seconds));
+  const Result<TabularSetup> setup = resolve(run.settings().learn, run.world());
+  switch (seed.stop) {
+    case Stop::stable: {
+      const bool proved = setup && run.entry().sound && run.world().traits.deterministic &&
+                          setup->stable.visits == 1 && setup->stable.tolerance == 0.0 &&
+                          run.world().mdp;
+      if (!run.entry().sound) return "stable" + after + ": the printed rule changes nothing more";
+      return "stable" + after +
+             (proved ? ": proved, Q is the fixed point of its update"
+                     : ": stable, not proved") +
+             (run.world().mdp ? "" : "; over the states met so far");
+    }
+    case Stop::diverged:
+      return "stopped" + after + ": the values have left every bound";
+    case Stop::budget:
+      return "not stable" + after + ": the budget is used up";
+    case Stop::interrupted:
+      return "interrupted" + after;
+    default:
+      return "stopped" + after + " as asked";
+  }
+}
+
+std::string choice_name(const Mdp& mdp, State state, Action action) {
+  return "(" + mdp.state_name(state) + ", " + mdp.action_name(mdp.choice_begin(state) + action) +
+         ")";
+}
+
+std::string impossible_text(const Run& run, const Impossible& impossible) {
+  if (!impossible.found || !run.world().mdp) return "";
+  const std::string where = choice_name(*run.world().mdp, impossible.state, impossible.action);
+  if (impossible.bound > 0.0) {
+    return fmt::format(
+        "Impossible value: at step {} Q{} = {}, but no policy can earn more than {} here (largest "
+        "reward / (1 - discount)).\nSuch a value estimates nothing.\n",
+        grouped(impossible.step), where, number_text(impossible.value),
+        number_text(impossible.bound));
+  }
+  return fmt::format("Diverged: at step {} Q{} = {}.\n", grouped(impossible.step), where,
+                     shortest(impossible.value));
+}
+
+// The pairs that kept a run from being stable: those visited least.
+std::string least_visited(const Mdp& mdp, const Estimates& estimates, const TabularSetup& setup) {
+  std::vector<std::pair<std::uint32_t, std::uint64_t>> pairs;
+  const std::vector<bool> reached = reachable(mdp, setup.starts.states());
+  std::vector<State> owner;
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (!reached[s] || mdp.terminal(s)) continue;
+    for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
+      pairs.emplace_back(estimates.visits[c], (std::uint64_t{s} << 32) | (c - mdp.choice_begin(s)));
+    }
+  }
+  const std::size_t shown = std::min<std::size_t>(10, pairs.size());
+  std::partial_sort(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(shown), pairs.end());
+  std::string text = "Least visited:";
+  for (std::size_t i = 0; i < shown; ++i) {
+    const auto state = static_cast<State>(pairs[i].second >> 32);
+    text += fmt::format("{} {} {} times", i > 0 ? "," : "",
+                        choice_name(mdp, state, static_cast<Action>(pairs[i].second)),
+                        grouped(pairs[i].first));
+  }
+  return text + "\n";
+}
+
+std::string verdict(const Run& run, const RunResult& result, const SeedResult& seed) {
+  if (!run.entry().sound) {
+    return "No verdict: the rule " + run.settings().learn.rule +
+           " exists to be studied; its policy is neither certified nor exported.\n";
+  }
+  if (!seed.optimality) return "No certificate: " + result.no_exact + ".\n";
+  const Optimality& judged = *seed.optimality;
+  std::string text = "Policy optimal: ";
+  text += !judged.optimal ? "not decided" : *judged.optimal ? "yes" : "no";
+  text += " (" + judged.proof + ").";
+  if (judged.optimal != true && run.world().mdp) {
+    text += fmt::format(" Regret at most {} at {}.", number_text(judged.regret),
+                        run.world().mdp->state_name(judged.worst));
+  }
+  if (judged.unreachable > 0) {
+    text += fmt::format(" {} states cannot be reached from the start and are left out.",
+                        grouped(judged.unreachable));
+  }
+  return text + "\n";
+}
+
+std::string seeds_table(const RunResult& result) {
+  TextTable table({{"seed"},
+                   {"steps", TextTable::Align::right},
+                   {"stop"},
+                   {"optimal"},
+                   {"regret", TextTable::Align::point},
+                   {"mean return", TextTable::Align::point},
+                   {"ended", TextTable::Align::right}});
+  for (const SeedResult& seed : result.seeds) {
+    const bool judged = seed.optimality.has_value();
+    const bool decided = judged && seed.optimality->optimal;
+    table.row({std::to_string(seed.seed), grouped(seed.steps), std::string(stop_name(seed.stop)),
+               !decided ? "?" : *seed.optimality->optimal ? "yes" : "no",
+               judged ? number_text(seed.optimality->regret) : "", number_text(seed.played.mean),
+               fmt::format("{:.0f} %", 100 * seed.played.ended)});
+  }
+  const Statistics& s = result.statistics;
+  std::string text = table.text();
+  text += fmt::format("mean {}, median {}, interquartile mean {}, smallest {}",
+                      number_text(s.mean), number_text(s.median), number_text(s.iqm),
+                      number_text(s.minimum));
+  if (s.lower) {
+    text += fmt::format(", 95 % interval of the mean [{}, {}]", number_text(*s.lower),
+                        number_text(*s.upper));
+  }
+  return text + "\n";
+}
+
+std::string curve_line(const Run& run, const TerminalStyle& style) {
+  std::vector<double> values;
+  for (const LearningCurve::Bin& bin : run.trainings().front().curve().bins()) {
+    if (bin.episodes > 0) values.push_back(bin.mean());
+  }
+  if (values.size() < 2) return "";
+  return fmt::format("return  {}  {} -> {}\n", sparkline(values, 50, style.unicode),
+                     number_text(values.front()), number_text(values.back()));
+}
+
+std::string next_steps(const Run& run) {
+  if (!run.world().mdp || !run.entry().sound) return "";
+  const std::string& name = run.source().name;
+  return fmt::format("Next: quoll explain {0} | quoll solve {0} | quoll show {0} -o {1}.svg\n",
+                     name, run.world().name);
+}
+
+}  // namespace
+
+std::string learn_text(const Run& run, const RunResult& result, const TerminalStyle& style,
+                       bool all) {
+  std::string text = heading(run);
+  const SeedResult& first = result.seeds.front();
+  if (result.seeds.size() > 1) {
+    return text + "\n" + seeds_table(result) + next_steps(run);
+  }
+  text += stop_sentence(run, first) + "\n\n";
+  const Mdp* mdp = run.world().mdp.get();
+  if (mdp) {
+    const Estimates estimates = run.trainings().front().learner().estimates();
+    const std::vector<double> q_star =
+        result.exact ? q_star_all(*mdp, *result.exact, run.discount()) : std::vector<double>();
+    if (mdp->layout() && mdp->states() > 20) {
+      std::vector<double> value(mdp->states(), 0.0);
+      for (State s = 0; s < mdp->states(); ++s) {
+        if (first.policy[s] != no_action) value[s] = estimates.q[mdp->choice_begin(s) + first.policy[s]];
+      }
+      const GridView view{mdp, value, first.policy, {}, "learned policy"};
+      if (const auto grid = grid_policy_text(view, style)) text += *grid + "\n";
+    } else {
+      QTableView view;
+      view.mdp = mdp;
+      view.q = estimates.q;
+      view.q_is_float = estimates.single_precision;
+      view.q_star = q_star;
+      view.visits = estimates.visits;
+      view.policy = first.policy;
+      if (!estimates.reward_estimate.empty()) {
+        view.more.push_back({"rE", estimates.reward_estimate});
+      }
+      view.states = all ? 0 : 20;
+      text += q_table(view) + "\n";
+    }
+    if (first.stop == Stop::budget) {
+      if (const auto setup = resolve(run.settings().learn, run.world())) {
+        text += least_visited(*mdp, estimates, *setup);
+      }
+    }
+  }
+  text += impossible_text(run, first.impossible);
+  text += verdict(run, result, first);
+  text += curve_line(run, style);
+  if (first.played.episodes > 0) {
+    text += fmt::format("greedy policy: mean return {} over {} episodes, {:.0f} % reach an end\n",
+                        number_text(first.played.mean), grouped(first.played.episodes),
+                        100 * first.played.ended);
+  }
+  return text + next_steps(run);
+}
+
+}  // namespace quoll::cli

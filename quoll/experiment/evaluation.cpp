@@ -1,0 +1,92 @@
+#include "quoll/experiment/evaluation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace quoll {
+
+Played play(const World& world, const TablePolicy& policy, std::uint64_t episodes,
+            std::uint64_t seed, double discount, std::uint64_t episode_steps) {
+  Played played;
+  const std::uint64_t streams_seed = stream(seed, "evaluation").next();
+  const std::unique_ptr<Environment> environment = world.make(1, streams_seed);
+  State state = 0, next = 0;
+  Action action = 0;
+  Feedback feedback;
+  Experience now{{&state, 1}, {&action, 1}, {&feedback, 1}, {&next, 1}, {}, {}};
+  const std::uint8_t restart = 1;
+  std::uint64_t steps = 0, ended = 0;
+  double sum = 0.0, discounted_sum = 0.0;
+  for (std::uint64_t episode = 0; episode < episodes; ++episode) {
+    environment->restart({&restart, 1}, now);
+    double factor = 1.0;
+    bool over = world.mdp && world.mdp->terminal(state);
+    ended += over;
+    for (std::uint64_t t = 0; t < episode_steps && !over; ++t) {
+      action = policy(state);
+      if (action == no_action) break;
+      environment->step(now);
+      ++steps;
+      sum += feedback.reward;
+      discounted_sum += factor * feedback.reward;
+      factor *= discount;
+      state = next;
+      over = feedback.terminated || feedback.truncated;
+      ended += feedback.terminated;
+    }
+  }
+  const auto count = static_cast<double>(episodes);
+  played.episodes = episodes;
+  if (episodes == 0) return played;
+  played.mean = sum / count;
+  played.mean_discounted = discounted_sum / count;
+  played.mean_steps = static_cast<double>(steps) / count;
+  played.ended = static_cast<double>(ended) / count;
+  return played;
+}
+
+namespace {
+
+double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// The value at a share of the sorted list, linear between neighbours.
+double quantile(std::span<const double> sorted, double share) {
+  const double place = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+}  // namespace
+
+Statistics statistics(std::span<const double> values) {
+  Statistics result;
+  if (values.empty()) return result;
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t quarter = sorted.size() / 4;
+  result.mean = mean_of(sorted);
+  result.median = quantile(sorted, 0.5);
+  result.iqm = mean_of(std::span(sorted).subspan(quarter, sorted.size() - 2 * quarter));
+  result.minimum = sorted.front();
+  if (sorted.size() < 2) return result;
+  constexpr std::size_t resamples = 2000;
+  Rng rng = stream(1, "bootstrap");
+  std::vector<double> means(resamples);
+  for (double& mean : means) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+      sum += sorted[rng.below(static_cast<std::uint32_t>(sorted.size()))];
+    }
+    mean = sum / static_cast<double>(sorted.size());
+  }
+  std::sort(means.begin(), means.end());
+  result.lower = quantile(means, 0.025);
+  result.upper = quantile(means, 0.975);
+  return result;
+}
+
+}  // namespace quoll

@@ -1,0 +1,37 @@
+#include "quoll/experiment/learning_curve.hpp"
+
+namespace quoll {
+
+bool LearningCurve::advance(std::uint64_t step, std::uint64_t episodes, double return_sum) {
+  episodes_ = episodes;
+  return_sum_ = return_sum;
+  if (step < boundary()) return false;
+  bins_.push_back(open());
+  closed_episodes_ = episodes_;
+  closed_return_sum_ = return_sum_;
+  if (bins_.size() == most_bins) {
+    for (std::size_t i = 0; i < most_bins / 2; ++i) {
+      const Bin& left = bins_[2 * i];
+      const Bin& right = bins_[2 * i + 1];
+      bins_[i] = {left.episodes + right.episodes, left.return_sum + right.return_sum};
+    }
+    bins_.resize(most_bins / 2);
+    width_ *= 2;
+  }
+  return true;
+}
+
+void LearningCurve::persist(Archive& archive) {
+  archive("width", width_);
+  archive("bins", bins_);
+  archive("episodes", episodes_);
+  archive("closed_episodes", closed_episodes_);
+  archive("return_sum", return_sum_);
+  archive("closed_return_sum", closed_return_sum_);
+  if (width_ == 0) {
+    width_ = first_width;
+    archive.fail("a curve without width");
+  }
+}
+
+}  // namespace quoll

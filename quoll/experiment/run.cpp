@@ -1,0 +1,228 @@
+#include "quoll/experiment/run.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+
+#include "quoll/base/file.hpp"
+#include "quoll/base/parallel.hpp"
+#include "quoll/base/text.hpp"
+#include "quoll/model/digest.hpp"
+#include "quoll/model/graph.hpp"
+#include "quoll/solve/solver.hpp"
+
+namespace quoll {
+namespace {
+
+// At discount 1 a value may not exist: say so before learning, with names.
+Result<void> defined_without_discount(const World& world, double discount) {
+  if (discount < 1.0 || !world.mdp) return {};
+  const UndiscountedFault fault = undiscounted_fault(*world.mdp);
+  if (fault.kind == UndiscountedFault::Kind::none) return {};
+  std::string names;
+  for (std::size_t i = 0; i < fault.states.size() && i < 5; ++i) {
+    names += (i > 0 ? ", " : "") + world.mdp->state_name(fault.states[i]);
+  }
+  if (fault.states.size() > 5) {
+    names += " and " + std::to_string(fault.states.size() - 5) + " more";
+  }
+  const bool cycle = fault.kind == UndiscountedFault::Kind::gaining_cycle;
+  return Error{"--discount", 0, 0,
+               (cycle ? "at discount 1 the cycle " + names + " earns without end"
+                      : "at discount 1 no end can be reached from " + names) +
+                   ": values are not defined; give --discount below 1, or --force",
+               ""};
+}
+
+std::uint64_t world_digest(const World& world) { return world.mdp ? digest(*world.mdp) : 0; }
+
+}  // namespace
+
+std::uint64_t default_budget(const World& world) {
+  const std::uint64_t pairs = world.mdp ? world.mdp->choices() : 0;
+  return std::max<std::uint64_t>(1'000'000, 2000 * pairs);
+}
+
+Result<Run> Run::start(RunSettings settings, WorldSource source, const World& world,
+                       std::vector<double> initial_rewards) {
+  Run run;
+  run.settings_ = std::move(settings);
+  run.source_ = std::move(source);
+  run.world_ = std::make_shared<const World>(world);
+  run.initial_rewards_ = std::move(initial_rewards);
+  const Result<const LearnerEntry*> entry = find_learner(run.settings_.learn);
+  if (!entry) return entry.error();
+  run.entry_ = *entry;
+  if (!run.settings_.force) {
+    const Result<void> defined = defined_without_discount(world, run.discount());
+    if (!defined) return defined.error();
+  }
+  if (run.settings_.seeds == 0) run.settings_.seeds = 1;
+  for (std::uint64_t index = 0; index < run.settings_.seeds; ++index) {
+    Result<Training> training =
+        Training::make(run.settings_, index, *run.world_, run.initial_rewards_);
+    if (!training) return training.error();
+    run.trainings_.push_back(std::move(*training));
+  }
+  return run;
+}
+
+double Run::discount() const {
+  return settings_.learn.discount > 0.0 ? settings_.learn.discount : world_->discount;
+}
+
+bool Run::advance(const RunSettings& limits_asked, double pause,
+                  const std::function<bool(const RunProgress&)>& keep_going, const Sink& sink) {
+  using Clock = std::chrono::steady_clock;
+  Limits limits{limits_asked.steps, limits_asked.episodes, 0.0, 0};
+  if (!limits_asked.time.empty()) {
+    const Result<double> seconds = parse_duration(limits_asked.time, "--time");
+    limits.seconds = seconds ? *seconds : 0.0;
+  }
+  const bool bounded = limits.steps > 0 || limits.episodes > 0 || limits.seconds > 0.0;
+  if (!bounded) limits.budget = default_budget(*world_);
+
+  const Clock::time_point begun = Clock::now();
+  const auto since = [&] { return std::chrono::duration<double>(Clock::now() - begun).count(); };
+  std::mutex mutex;
+  std::vector<LearnProgress> where(trainings_.size());
+  std::atomic<bool> stopped{false}, paused{false};
+  const auto between = [&](const Training& training) {
+    if (stopped || paused) return false;
+    const std::lock_guard lock(mutex);
+    where[training.index()] = training.learner().progress();
+    RunProgress progress;
+    for (const LearnProgress& one : where) {
+      progress.steps += one.steps;
+      progress.episodes += one.episodes;
+    }
+    progress.seconds = since();
+    if (const auto& bins = trainings_[0].curve().bins();
+        training.index() == 0 && !bins.empty() && bins.back().episodes > 0) {
+      progress.mean_return = bins.back().mean();
+    }
+    if (keep_going && !keep_going(progress)) stopped = true;
+    if (pause > 0.0 && progress.seconds >= pause) paused = true;
+    return !stopped && !paused;
+  };
+  const Sink locked = [&](const Record& record) {
+    const std::lock_guard lock(mutex);
+    sink(record);
+  };
+  parallel_for(trainings_.size(), settings_.threads, [&](std::size_t i) {
+    trainings_[i].advance(limits, between, sink ? locked : Sink());
+  });
+  return !paused || std::none_of(trainings_.begin(), trainings_.end(), [](const Training& one) {
+           return one.stop() == Stop::interrupted;
+         });
+}
+
+std::vector<State> Run::starts() const {
+  const Result<TabularSetup> setup = resolve(settings_.learn, *world_);
+  if (!setup) return {};
+  return {setup->starts.states().begin(), setup->starts.states().end()};
+}
+
+RunResult Run::result(bool solve_too) const {
+  RunResult result;
+  const Mdp* mdp = world_->mdp.get();
+  if (mdp && solve_too) {
+    SolveSettings settings;
+    settings.discount = discount();
+    settings.width = 1e-9;
+    Result<Solution> exact = solve(*mdp, settings);
+    if (exact) result.exact = std::move(*exact);
+    else result.no_exact = message(exact.error());
+  } else if (!mdp) {
+    result.no_exact = "the model of " + world_->name + " is not known";
+  }
+  const std::vector<State> from = mdp ? starts() : std::vector<State>();
+  std::vector<double> means;
+  result.seeds.resize(trainings_.size());
+  parallel_for(trainings_.size(), settings_.threads, [&](std::size_t i) {
+    const Training& training = trainings_[i];
+    const LearnProgress progress = training.learner().progress();
+    SeedResult& seed = result.seeds[i];
+    seed = {training.seed(),  progress.steps,      progress.episodes, training.seconds(),
+            training.stop(), progress.impossible, {},                {},
+            {}};
+    if (!mdp) return;
+    seed.policy = greedy_policy(*mdp, training.learner().estimates());
+    if (result.exact) {
+      seed.optimality = judge(*mdp, *result.exact, seed.policy, from, discount());
+    }
+    const std::uint64_t cut = world_->episode_steps > 0 ? world_->episode_steps
+                                                        : std::max<std::uint64_t>(2000, mdp->states());
+    seed.played = play(*world_, TablePolicy(seed.policy), settings_.evaluation_episodes, seed.seed,
+                       discount(), cut);
+  });
+  for (const SeedResult& seed : result.seeds) {
+    means.push_back(seed.played.mean);
+    result.seconds += seed.seconds;
+  }
+  result.statistics = statistics(means);
+  return result;
+}
+
+void Run::persist(Archive& archive) {
+  archive("world", source_.name);
+  std::vector<std::string> parameters;
+  for (const auto& [key, value] : source_.parameters) {
+    parameters.push_back(key);
+    parameters.push_back(value);
+  }
+  archive("parameters", parameters);
+  source_.parameters.clear();
+  for (std::size_t i = 0; i + 1 < parameters.size(); i += 2) {
+    source_.parameters.emplace_back(parameters[i], parameters[i + 1]);
+  }
+  archive("settings", settings_);
+  archive("initial_rewards", initial_rewards_);
+}
+
+Result<void> Run::save(const std::string& path) {
+  Archive archive;
+  persist(archive);
+  std::uint64_t fingerprint = world_digest(*world_);
+  archive("digest", fingerprint);
+  for (Training& training : trainings_) archive("training", training);
+  return save_archive(path, "run", archive.bytes());
+}
+
+Result<Run> Run::load(const std::string& path, bool watch) {
+  const Result<std::vector<std::byte>> content = load_archive(path, "run");
+  if (!content) return content.error();
+  Archive archive{std::span<const std::byte>(*content)};
+  Run saved;
+  saved.persist(archive);
+  std::uint64_t fingerprint = 0;
+  archive("digest", fingerprint);
+  const auto refuse = [&](const std::string& why) { return Error{path, 0, 0, why, ""}; };
+  if (!archive.good()) return refuse("not a run this program can read: " + archive.error().expected);
+  Result<World> world = find_world(saved.source_.name, saved.source_.parameters);
+  if (!world) {
+    const std::size_t slash = path.find_last_of('/');
+    const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
+    const std::size_t file = saved.source_.name.find_last_of('/');
+    const std::string name =
+        file == std::string::npos ? saved.source_.name : saved.source_.name.substr(file + 1);
+    Result<World> beside = find_world(folder + name, saved.source_.parameters);
+    if (!beside) return refuse("its world is not found: " + message(world.error()));
+    world = std::move(beside);
+  }
+  if (world_digest(*world) != fingerprint) {
+    return refuse("the world " + saved.source_.name + " has changed since this run was saved");
+  }
+  saved.settings_.force = true;  // it was checked when the run began
+  saved.settings_.learn.until_stable = watch;
+  Result<Run> run = start(saved.settings_, saved.source_, *world, saved.initial_rewards_);
+  if (!run) return refuse(message(run.error()));
+  for (Training& training : run->trainings_) archive("training", training);
+  if (!archive.good() || !archive.at_end()) {
+    return refuse("not a run this program can read: " + archive.error().expected);
+  }
+  return run;
+}
+
+}  // namespace quoll

@@ -1,0 +1,96 @@
+#pragma once
+// A run: some seeds of one way to learn in one world, until a limit or a goal; saved, resumed, judged.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "quoll/experiment/evaluation.hpp"
+#include "quoll/experiment/training.hpp"
+#include "quoll/model/solution.hpp"
+#include "quoll/solve/optimality.hpp"
+
+namespace quoll {
+
+/// How a world was named: enough to find it again.
+struct WorldSource {
+  std::string name;  ///< built-in name or file
+  std::vector<std::pair<std::string, std::string>> parameters;
+};
+
+/// Where all seeds together stand, for progress lines.
+struct RunProgress {
+  std::uint64_t steps = 0, episodes = 0;
+  std::uint64_t finished = 0;          ///< seeds that are done
+  double seconds = 0.0;                ///< since this call began
+  std::optional<double> mean_return;   ///< of the episodes of the last closed bin, first seed
+};
+
+/// What one seed came to.
+struct SeedResult {
+  std::uint64_t seed = 0, steps = 0, episodes = 0;
+  double seconds = 0.0;
+  Stop stop = Stop::none;
+  Impossible impossible;
+  std::vector<Action> policy;           ///< greedy among visited; worlds with a model
+  std::optional<Optimality> optimality; ///< where an exact answer is known
+  Played played;
+};
+
+/// What a run came to.
+struct RunResult {
+  std::optional<Solution> exact;
+  std::string no_exact;           ///< why there is no exact answer
+  std::vector<SeedResult> seeds;
+  Statistics statistics;          ///< over the seeds' mean returns
+  double seconds = 0.0;           ///< learning, all seeds together
+};
+
+class Run {
+ public:
+  static Result<Run> start(RunSettings settings, WorldSource source, const World& world,
+                           std::vector<double> initial_rewards);
+  /// Reads a run file; finds its world again (beside the file if not where it was), and refuses a world
+  /// that has changed since. `watch` = whether it goes on to watch for stability.
+  static Result<Run> load(const std::string& path, bool watch = true);
+  /// Writes the run atomically. Between calls of advance() only.
+  Result<void> save(const std::string& path);
+
+  /// Learns until every seed has met a limit of the settings, or `keep_going` returns false. Called
+  /// between chunks from one thread at a time; `pause` (seconds, 0 = never) gives the caller the run
+  /// back every so often, for saving: then false is returned. True = all seeds are done.
+  bool advance(const RunSettings& limits, double pause,
+               const std::function<bool(const RunProgress&)>& keep_going, const Sink& sink);
+
+  /// Judges and plays the policies. `solve_too` = find the exact answer if the model is known.
+  RunResult result(bool solve_too) const;
+
+  const RunSettings& settings() const { return settings_; }
+  /// How many processors advance() and result() use; changes no result.
+  void set_threads(unsigned threads) { settings_.threads = threads; }
+  const WorldSource& source() const { return source_; }
+  const World& world() const { return *world_; }
+  double discount() const;
+  const LearnerEntry& entry() const { return *entry_; }
+  std::vector<Training>& trainings() { return trainings_; }
+  const std::vector<Training>& trainings() const { return trainings_; }
+
+ private:
+  void persist(Archive& archive);
+  std::vector<State> starts() const;
+
+  RunSettings settings_;
+  WorldSource source_;
+  std::shared_ptr<const World> world_;
+  std::vector<double> initial_rewards_;
+  const LearnerEntry* entry_ = nullptr;
+  std::vector<Training> trainings_;
+};
+
+/// Steps after which a run without a limit gives up on being stable: max(10^6, 2000 x pairs).
+std::uint64_t default_budget(const World& world);
+
+}  // namespace quoll

@@ -1,0 +1,36 @@
+#pragma once
+// A run as people ask for it: how to learn, how long, how often.
+
+#include <cstdint>
+#include <string>
+
+#include "quoll/learn/settings.hpp"
+
+namespace quoll {
+
+struct RunSettings {
+  LearnSettings learn;
+
+  // Limits: they count the whole run, per seed, resumed parts included.
+  std::uint64_t steps = 0;     ///< 0 = no limit
+  std::uint64_t episodes = 0;  ///< 0 = no limit
+  std::string time;            ///< "10s", "2m", "500ms"; empty = no limit
+  std::string until;           ///< "stable" or empty
+  std::uint64_t seeds = 1;     ///< seeds N .. N + seeds - 1
+  unsigned threads = 0;        ///< 0 = all processors
+  bool force = false;          ///< learn although undiscounted values are undefined
+  std::uint64_t evaluation_episodes = 100;
+
+  /// How to learn and how often: what a resumed run takes from its file.
+  void describe(Describer& d);
+  /// Limits and what may be given anew.
+  void describe_limits(Describer& d);
+  void persist(Archive& archive);
+
+  bool has_limit() const { return steps > 0 || episodes > 0 || !time.empty() || !until.empty(); }
+};
+
+/// "10s", "1.5m", "2h", "500ms", or a plain number of seconds.
+Result<double> parse_duration(std::string_view text, std::string_view place);
+
+}  // namespace quoll

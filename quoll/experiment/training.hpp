@@ -1,0 +1,69 @@
+#pragma once
+// One seed of a run: a learner advanced in chunks until a limit or a goal, with its curve. Chunks end at
+// exact steps and change no bit; everything that looks at a clock stands between them.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string_view>
+
+#include "quoll/experiment/learning_curve.hpp"
+#include "quoll/experiment/record.hpp"
+#include "quoll/experiment/settings.hpp"
+#include "quoll/learn/learner.hpp"
+
+namespace quoll {
+
+/// Why a run ended.
+enum class Stop : std::uint8_t {
+  none,
+  steps,        ///< the steps asked for are done
+  episodes,     ///< the episodes asked for are done
+  time,         ///< the time asked for is over
+  stable,       ///< nothing changes any more
+  diverged,     ///< a value that is no number, or beyond 1e30
+  budget,       ///< not stable within the default budget: a goal was missed
+  interrupted,  ///< somebody asked to stop
+};
+std::string_view stop_name(Stop stop);
+
+/// When a run ends; 0 = no such limit.
+struct Limits {
+  std::uint64_t steps = 0, episodes = 0;
+  double seconds = 0.0;
+  std::uint64_t budget = 0;  ///< steps after which a goal counts as missed
+};
+
+class Training {
+ public:
+  /// Between chunks: the training so far; false asks it to stop.
+  using Between = std::function<bool(const Training&)>;
+
+  static Result<Training> make(const RunSettings& settings, std::uint64_t index,
+                               const World& world, const std::vector<double>& initial_rewards);
+
+  /// Advances until a limit is met or the learner halts. Does nothing when that is so already.
+  Stop advance(const Limits& limits, const Between& between, const Sink& sink);
+
+  std::uint64_t seed() const { return seed_; }
+  std::uint32_t index() const { return index_; }
+  const Learner& learner() const { return *learner_; }
+  Learner& learner() { return *learner_; }
+  const LearningCurve& curve() const { return curve_; }
+  double seconds() const { return seconds_; }  ///< spent learning, resumed parts included
+  Stop stop() const { return stop_; }
+
+  void persist(Archive& archive);
+
+ private:
+  std::uint64_t chunk(const Limits& limits, const LearnProgress& now) const;
+
+  std::uint64_t seed_ = 1;
+  std::uint32_t index_ = 0;
+  std::unique_ptr<Learner> learner_;
+  LearningCurve curve_;
+  double seconds_ = 0.0;
+  Stop stop_ = Stop::none;
+};
+
+}  // namespace quoll

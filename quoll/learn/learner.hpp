@@ -1,0 +1,85 @@
+#pragma once
+// The border to everything that learns: a learner owns its closed loop of acting and updating, and is
+// advanced by a number of steps. It never prints, times or reads files.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "quoll/act/policy.hpp"
+#include "quoll/base/archive.hpp"
+#include "quoll/env/world.hpp"
+#include "quoll/learn/settings.hpp"
+#include "quoll/learn/update.hpp"
+
+namespace quoll {
+
+/// A value above what any policy could earn: proof that it estimates nothing (docs/lecture.md).
+struct Impossible {
+  bool found = false;
+  std::uint64_t step = 0;
+  State state = 0;
+  Action action = 0;
+  double value = 0.0;
+  double bound = 0.0;  ///< max(max |Q0|, R / (1 - discount))
+};
+
+/// Where a learner stands; all counts since the beginning of the run.
+struct LearnProgress {
+  enum class Halt : std::uint8_t { none, stable, diverged } halt = Halt::none;
+  std::uint64_t steps = 0;
+  std::uint64_t episodes = 0;     ///< finished ones
+  double return_sum = 0.0;        ///< undiscounted returns of the finished episodes
+  std::uint64_t logged = 0;       ///< updates written to the log by the last advance
+  Impossible impossible;          ///< the first one
+};
+
+/// What was learned, per choice of the model (choice_begin(s) + a), in plain doubles.
+struct Estimates {
+  std::vector<double> q;
+  std::vector<std::uint32_t> visits;
+  std::vector<double> reward_estimate;  ///< rules with their own rE; else empty
+  bool single_precision = true;         ///< q holds floats
+};
+
+class Learner {
+ public:
+  virtual ~Learner() = default;
+  /// Acts and learns for at most `steps` steps; exactly that many unless it halts. With a log, stops
+  /// when the log is full; the bits are the same with and without.
+  virtual LearnProgress advance(std::uint64_t steps, std::span<Update> log) = 0;
+  virtual LearnProgress progress() const = 0;
+  virtual Estimates estimates() const = 0;
+  /// Everything that continuing needs, exactly: loading and advancing continues bit for bit.
+  virtual void persist(Archive& archive) = 0;
+};
+
+/// One line of the registry of learners.
+struct LearnerEntry {
+  std::string_view method;
+  std::string_view rule;  ///< "" = the method has no choice of rules
+  std::string_view summary;
+  /// False for a rule that exists to be studied: it is neither exported nor certified.
+  bool sound;
+  std::unique_ptr<Learner> (*make)(const TabularSetup& setup);
+  /// The same rule applied to given transitions (state, action, reward, next, terminated of each),
+  /// with the numbers of each update filled in; needs a world with a model.
+  std::vector<Update> (*replay)(const TabularSetup& setup, std::span<const Update> script);
+};
+std::span<const LearnerEntry> learners();
+
+/// The learner that the settings name, for this world; `initial_rewards` per choice for the rules that
+/// take them (empty = those of the settings).
+Result<std::unique_ptr<Learner>> make_learner(const LearnSettings& settings, const World& world,
+                                              const std::vector<double>& initial_rewards = {});
+
+/// The entry make_learner uses, or an Error that names the nearest.
+Result<const LearnerEntry*> find_learner(const LearnSettings& settings);
+
+/// The greedy policy of the estimates: among visited actions only, ties to the lowest index;
+/// no_action where none was visited and for ends.
+std::vector<Action> greedy_policy(const Mdp& mdp, const Estimates& estimates);
+
+}  // namespace quoll

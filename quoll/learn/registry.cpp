@@ -1,0 +1,64 @@
+// The learners, one line each.
+
+#include <array>
+
+#include "quoll/base/text.hpp"
+#include "quoll/learn/learner.hpp"
+#include "quoll/learn/tabular/rules.hpp"
+
+namespace quoll {
+
+std::span<const LearnerEntry> learners() {
+  static const std::array entries{
+      q_learning_standard,
+      q_learning_as_printed,
+      q_learning_reward_estimate,
+  };
+  return entries;
+}
+
+Result<const LearnerEntry*> find_learner(const LearnSettings& settings) {
+  Nearest method(settings.method), rule(settings.rule);
+  bool method_known = false;
+  for (const LearnerEntry& entry : learners()) {
+    method.offer(entry.method);
+    if (entry.method != settings.method) continue;
+    method_known = true;
+    if (entry.rule.empty() || entry.rule == settings.rule) return &entry;
+    rule.offer(entry.rule);
+  }
+  if (!method_known) {
+    return Error{"--method", 0, 0,
+                 "no method '" + settings.method + "'; see 'quoll list methods'", method.best()};
+  }
+  return Error{"--rule", 0, 0,
+               "standard, as-printed or reward-estimate expected, not '" + settings.rule + "'",
+               rule.best()};
+}
+
+Result<std::unique_ptr<Learner>> make_learner(const LearnSettings& settings, const World& world,
+                                              const std::vector<double>& initial_rewards) {
+  const Result<const LearnerEntry*> entry = find_learner(settings);
+  if (!entry) return entry.error();
+  const Result<TabularSetup> setup = resolve(settings, world, initial_rewards);
+  if (!setup) return setup.error();
+  return (*entry)->make(*setup);
+}
+
+std::vector<Action> greedy_policy(const Mdp& mdp, const Estimates& estimates) {
+  std::vector<Action> policy(mdp.states(), no_action);
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (mdp.terminal(s)) continue;
+    for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
+      if (estimates.visits[c] == 0) continue;
+      const auto a = static_cast<Action>(c - mdp.choice_begin(s));
+      const Action best = policy[s];
+      if (best == no_action || estimates.q[c] > estimates.q[mdp.choice_begin(s) + best]) {
+        policy[s] = a;
+      }
+    }
+  }
+  return policy;
+}
+
+}  // namespace quoll

@@ -1,0 +1,237 @@
+#include "quoll/learn/settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "quoll/base/text.hpp"
+#include "quoll/model/graph.hpp"
+
+namespace quoll {
+
+void LearnSettings::describe(Describer& d) {
+  d("method", method, "how to learn; see 'quoll list methods'");
+  d("rule", rule, "update rule: standard, as-printed (the lecture's text) or reward-estimate");
+  d("discount", discount, 0, 1, "discount factor of the future; 0 = the world's own");
+  d("seed", seed, "which random numbers; the same seed gives the same bits");
+  d("explore", explore, "how actions are chosen; see 'quoll list explorations'");
+  d("epsilon", epsilon, "epsilon-greedy: share of random actions, or FROM:TO:STEPS");
+  d("temperature", temperature, "softmax: in units of value, or FROM:TO:STEPS");
+  d("ucb_constant", ucb_constant, 0, 1e6, "ucb: weight of the bonus, times the span of rewards");
+  d("start", start, "how start states are chosen; see 'quoll list starts'");
+  d("step_size", step_size, "auto, a number in (0, 1], 1/N^w or rescaled-linear");
+  d("initial_value", initial_value, "value of pairs not visited yet: a number, or optimistic");
+  d("initial_rewards", initial_rewards,
+    "rE before the first visit, for the rules that have it: world, zero or FILE.csv");
+  d.choice("ties", ties, ties_names, "which of equally good actions is taken while learning");
+  d("tolerance", tolerance, -1, 1e300,
+    "stable: largest movement relative to max(1, |Q|); -1 = 0 where that proves, else 0.001");
+  d("episode_steps", episode_steps,
+    "steps after which an episode is cut off; 0 = the world's limit, or as 'list starts' says");
+  d.choice("precision", precision, precision_names, "numbers of the table");
+}
+
+void LearnSettings::persist(Archive& archive) {
+  Describer list;
+  describe(list);
+  for (const Setting& setting : list.settings()) {
+    std::visit(
+        [&](auto field) {
+          if constexpr (std::is_same_v<decltype(field), Choice>) {
+            archive(setting.name, *field.value);
+            if (*field.value >= field.names.size()) {
+              *field.value = 0;
+              archive.fail("an unknown choice for " + std::string(setting.name));
+            }
+          } else {
+            archive(setting.name, *field);
+          }
+        },
+        setting.field);
+  }
+  archive("until_stable", until_stable);
+}
+
+namespace {
+
+Result<Exploration> exploration(const LearnSettings& settings, const World& world) {
+  const auto* const found = std::find(std::begin(exploration_names), std::end(exploration_names),
+                                      std::string_view(settings.explore));
+  if (found == std::end(exploration_names)) {
+    return Error{"--explore", 0, 0,
+                 "no exploration '" + settings.explore + "'; see 'quoll list explorations'",
+                 nearest(settings.explore, std::span<const std::string_view>(exploration_names))};
+  }
+  Exploration chosen;
+  chosen.kind = static_cast<Exploration::Kind>(found - std::begin(exploration_names));
+  chosen.first_tie = settings.ties == Ties::first;
+  const auto epsilon = parse_schedule(settings.epsilon, 0.0, 1.0, "--epsilon");
+  if (!epsilon) return epsilon.error();
+  chosen.epsilon = *epsilon;
+  const auto temperature = parse_schedule(settings.temperature, 1e-9, 1e300, "--temperature");
+  if (!temperature) return temperature.error();
+  chosen.temperature = *temperature;
+  // The span of rewards, 0 (doing nothing) included: the scale on which UCB1 assumes [0, 1].
+  double span = 0.0;
+  if (world.traits.reward_bounds) {
+    const auto [low, high] = *world.traits.reward_bounds;
+    span = std::max(high, 0.0) - std::min(low, 0.0);
+  }
+  chosen.ucb_scale = settings.ucb_constant * (span > 0.0 ? span : 1.0);
+  return chosen;
+}
+
+Result<StartStates> starts(const LearnSettings& settings, const World& world) {
+  const std::string_view text = settings.start;
+  const std::string_view kind = text.substr(0, text.find(':'));
+  const auto* const found =
+      std::find(std::begin(start_names), std::end(start_names), kind);
+  if (found == std::end(start_names) || (kind != text && kind != "fixed")) {
+    return Error{"--start", 0, 0, "no start '" + settings.start + "'; see 'quoll list starts'",
+                 nearest(kind, std::span<const std::string_view>(start_names))};
+  }
+  if (kind != "world" && !world.traits.settable) {
+    return Error{"--start", 0, 0,
+                 "the world " + world.name + " cannot be put into a chosen state; use --start world",
+                 ""};
+  }
+  if (!world.mdp) {
+    if (kind == "world") return StartStates();
+    return Error{"--start", 0, 0, "chosen start states need a world whose model is known", ""};
+  }
+  const Mdp& mdp = *world.mdp;
+  StartStates result = kind == "world"     ? StartStates::world(mdp)
+                       : kind == "uniform" ? StartStates::uniform(mdp)
+                                           : StartStates::least_visited(mdp);
+  if (kind == "fixed") {
+    const std::string_view name = kind == text ? "" : text.substr(kind.size() + 1);
+    const auto state = mdp.find_state(name);
+    if (!state) {
+      return Error{"--start", 0, 0,
+                   "no state '" + std::string(name) + "' in " + world.name + "; fixed:STATE expected",
+                   mdp.arrays().state_names.nearest(name)};
+    }
+    if (mdp.terminal(*state)) {
+      return Error{"--start", 0, 0, "the state " + std::string(name) + " is an end: nothing to do",
+                   ""};
+    }
+    result = StartStates::fixed(*state);
+  }
+  if (result.states().empty()) {
+    return Error{"", 0, 0, "nothing to learn in " + world.name + ": every start state is an end", ""};
+  }
+  return result;
+}
+
+// "optimistic": the most any policy can earn: R / (1 - discount), or the largest reward when no single
+// one but the last can be positive.
+Result<double> initial_value(const LearnSettings& settings, const World& world, double discount) {
+  if (settings.initial_value != "optimistic") {
+    const auto number = parse_number(settings.initial_value);
+    if (number && std::isfinite(*number)) return *number;
+    return Error{"--initial-value", 0, 0,
+                 "a number or optimistic expected, not '" + settings.initial_value + "'",
+                 nearest(settings.initial_value, std::vector<std::string>{"optimistic"})};
+  }
+  if (!world.traits.reward_bounds) {
+    return Error{"--initial-value", 0, 0,
+                 "optimistic needs a world that declares its rewards; give a number", ""};
+  }
+  double running = world.traits.reward_bounds->second, last = running;
+  if (world.mdp) {
+    running = last = -HUGE_VAL;
+    const Mdp& mdp = *world.mdp;
+    for (State s = 0; s < mdp.states(); ++s) {
+      if (mdp.terminal(s)) continue;
+      for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
+        for (std::uint64_t o = mdp.outcome_begin(c); o < mdp.outcome_end(c); ++o) {
+          double& most = mdp.terminal(mdp.next(o)) ? last : running;
+          most = std::max(most, mdp.reward(c, o));
+        }
+      }
+    }
+  }
+  if (running <= 0.0) return std::max(0.0, last);
+  if (discount < 1.0) return std::max(running, last) / (1.0 - discount);
+  return Error{"--initial-value", 0, 0,
+               "optimistic is unbounded here (discount 1 and rewards on the way); give a number", ""};
+}
+
+std::uint64_t episode_limit(const LearnSettings& settings, const World& world, double discount) {
+  if (settings.episode_steps > 0) return settings.episode_steps;
+  if (world.episode_steps > 0) return world.episode_steps;
+  if (settings.start == "world") return 2000;
+  // Chosen starts are wasted in long episodes: one horizon, at most 32 steps.
+  const double horizon = discount < 1.0 ? std::ceil(1.0 / (1.0 - discount)) : 32.0;
+  return static_cast<std::uint64_t>(std::min(horizon, 32.0));
+}
+
+StableSetup stable(const LearnSettings& settings, const TabularSetup& setup, const World& world) {
+  StableSetup stable;
+  stable.watch = settings.until_stable;
+  const bool proves = world.traits.deterministic &&
+                      (setup.step_size.one() || setup.rule != "standard");
+  stable.visits = proves ? 1 : 100;
+  stable.tolerance = settings.tolerance >= 0.0 ? settings.tolerance : proves ? 0.0 : 1e-3;
+  if (stable.watch && world.mdp) {
+    const std::vector<bool> reached = reachable(*world.mdp, setup.starts.states());
+    for (State s = 0; s < world.mdp->states(); ++s) {
+      if (reached[s] && !world.mdp->terminal(s)) stable.pairs += world.mdp->actions(s);
+    }
+  }
+  return stable;
+}
+
+}  // namespace
+
+Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
+                             const std::vector<double>& initial_rewards) {
+  TabularSetup setup;
+  setup.world = &world;
+  setup.rule = settings.rule;
+  setup.seed = settings.seed;
+  setup.precision = settings.precision;
+  setup.discount = settings.discount > 0.0 ? settings.discount : world.discount;
+  if (world.traits.states == 0) {
+    return Error{"", 0, 0,
+                 "the states of " + world.name + " cannot be listed: a table cannot learn it", ""};
+  }
+  const auto exploring = exploration(settings, world);
+  if (!exploring) return exploring.error();
+  setup.exploration = *exploring;
+  const auto starting = starts(settings, world);
+  if (!starting) return starting.error();
+  setup.starts = *starting;
+  if (settings.rule != "standard" && settings.step_size != "auto" && settings.step_size != "1") {
+    return Error{"--step-size", 0, 0,
+                 "the rule " + settings.rule + " takes whole steps: 1 or auto expected, not '" +
+                     settings.step_size + "'",
+                 ""};
+  }
+  const auto step = parse_step_size(settings.rule == "standard" ? settings.step_size : "1",
+                                    world.traits.deterministic, setup.discount);
+  if (!step) return step.error();
+  setup.step_size = *step;
+  const auto initial = initial_value(settings, world, setup.discount);
+  if (!initial) return initial.error();
+  setup.initial_value = settings.rule == "as-printed" ? 0.0 : *initial;  // all QE = 0, as printed
+  setup.initial_rewards = initial_rewards;
+  if (initial_rewards.empty() && settings.initial_rewards == "world" && world.mdp) {
+    setup.initial_rewards = world.mdp->arrays().reward;
+  }
+  setup.episode_steps = episode_limit(settings, world, setup.discount);
+  setup.stable = stable(settings, setup, world);
+  if (world.traits.reward_bounds && setup.discount < 1.0) {
+    double largest = std::max(std::fabs(world.traits.reward_bounds->first),
+                              std::fabs(world.traits.reward_bounds->second));
+    if (settings.rule != "standard") {
+      for (const double reward : setup.initial_rewards) {
+        largest = std::max(largest, std::fabs(reward));
+      }
+    }
+    setup.value_bound =
+        std::max(std::fabs(setup.initial_value), largest / (1.0 - setup.discount));
+  }
+  return setup;
+}
+
+}  // namespace quoll

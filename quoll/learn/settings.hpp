@@ -1,0 +1,76 @@
+#pragma once
+// How to learn, as people say it (LearnSettings: words and numbers, one list for command line, TOML and
+// checkpoint), and as the loop needs it (TabularSetup: resolved against a world).
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "quoll/act/exploration.hpp"
+#include "quoll/act/start.hpp"
+#include "quoll/base/settings.hpp"
+#include "quoll/env/world.hpp"
+#include "quoll/learn/step_size.hpp"
+
+namespace quoll {
+
+enum class Ties : std::uint8_t { uniform, first };
+inline constexpr std::string_view ties_names[] = {"uniform", "first"};
+enum class Precision : std::uint8_t { single, twofold };
+inline constexpr std::string_view precision_names[] = {"float", "double"};
+inline constexpr std::string_view rule_names[] = {"standard", "as-printed", "reward-estimate"};
+
+struct LearnSettings {
+  std::string method = "q-learning";
+  std::string rule = "standard";
+  double discount = 0.0;  ///< 0 = the world's own
+  std::uint64_t seed = 1;
+  std::string explore = "uniform";
+  std::string epsilon = "0.1";
+  std::string temperature = "1";
+  double ucb_constant = 1.4;
+  std::string start = "world";
+  std::string step_size = "auto";
+  std::string initial_value = "0";
+  std::string initial_rewards = "world";
+  Ties ties = Ties::uniform;
+  double tolerance = -1.0;
+  std::uint64_t episode_steps = 0;
+  Precision precision = Precision::single;
+  bool until_stable = true;  ///< set by the run: watch for stability
+
+  void describe(Describer& d);
+  void persist(Archive& archive);
+};
+
+/// Watching for the point from which nothing changes any more (docs/design.md, section 6).
+struct StableSetup {
+  bool watch = false;
+  std::uint32_t visits = 1;    ///< K: visits of every pair since the last movement
+  double tolerance = 0.0;      ///< relative to max(1, |Q|)
+  std::uint64_t pairs = 0;     ///< pairs reachable from the start; 0 = not known, those met so far
+};
+
+/// Everything the tabular loop needs, resolved and checked.
+struct TabularSetup {
+  const World* world = nullptr;
+  std::string rule;
+  double discount = 1.0;
+  std::uint64_t seed = 1;
+  Exploration exploration;
+  StartStates starts;
+  StepSize step_size;
+  double initial_value = 0.0;
+  std::vector<double> initial_rewards;  ///< per choice, or empty
+  std::uint64_t episode_steps = 2000;
+  Precision precision = Precision::single;
+  StableSetup stable;
+  double value_bound = 0.0;  ///< B of the divergence guard; 0 = none known
+};
+
+/// Resolves the settings against the world. Errors name the flag, the range and the nearest word.
+Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
+                             const std::vector<double>& initial_rewards = {});
+
+}  // namespace quoll

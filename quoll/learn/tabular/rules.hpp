@@ -1,0 +1,12 @@
+#pragma once
+// The entries that the rules' files export; learn/registry.cpp lists them.
+
+#include "quoll/learn/learner.hpp"
+
+namespace quoll {
+
+extern const LearnerEntry q_learning_standard;
+extern const LearnerEntry q_learning_as_printed;
+extern const LearnerEntry q_learning_reward_estimate;
+
+}  // namespace quoll
