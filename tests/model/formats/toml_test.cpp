@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "quoll/base/file.hpp"
 #include "quoll/base/random.hpp"
 #include "quoll/model/builder.hpp"
 #include "quoll/model/check.hpp"
@@ -140,7 +141,8 @@ TEST(Toml, ErrorsNameThePlaceAndTheNearestName) {
 }
 
 TEST(Toml, SyntaxErrorsHaveAPlace) {
-  for (const char* text : {"discount = \n", "[states.A\n", "[states.A]\n[states.A]\n", "\xff"}) {
+  for (const char* text : {"discount = \n", "[states.A\n", "[states.A]\n[states.A]\n", "\xff",
+                           "[=]", "\xc3\xa4 = 1\n", "[\xd0\xb7 ALL]\n"}) {
     const auto mdp = parsed(text);
     ASSERT_FALSE(mdp) << text;
     EXPECT_GT(mdp.error().line, 0u) << text;
@@ -182,6 +184,64 @@ TEST(Toml, RefusesKeysThatWouldOverflowTheStack) {
   for (int i = 0; i < 200; ++i) numbers += ", 0.5";
   const std::string dots(200, '.');
   EXPECT_EQ(line_with_deep_key("# " + dots + "\nx = \"" + dots + "\"\ny = [" + numbers + "]"), 0u);
+}
+
+// The worlds printed in docs/worlds.md are read; its lines about starts are tried one by one.
+TEST(Toml, TheExamplesOfTheManualAreTrue) {
+  const auto page = read_file(QUOLL_SOURCE "/docs/worlds.md");
+  ASSERT_TRUE(page);
+  std::vector<std::string> blocks;
+  const std::string open = "```toml\n";
+  for (std::size_t at = page->find(open); at != std::string::npos; at = page->find(open, at)) {
+    at += open.size();
+    blocks.push_back(page->substr(at, page->find("```", at) - at));
+  }
+  ASSERT_EQ(blocks.size(), 3u);
+  const auto home = parsed(blocks[0]);
+  ASSERT_TRUE(home) << message(home.error());
+  EXPECT_EQ(home->choices(), 3u);
+  const auto pool = parsed(blocks[1]);
+  ASSERT_TRUE(pool) << message(pool.error());
+  EXPECT_EQ(pool->outcomes(), 6u);
+  int lines = 0;
+  for (std::size_t at = 0; at < blocks[2].size(); ++lines) {
+    const std::size_t end = blocks[2].find('\n', at);
+    const auto mdp = parsed(blocks[2].substr(at, end - at) +
+                            "\n[states.HALL]\non = \"GATE\"\n[states.GATE]\non = \"GATE\"\n");
+    EXPECT_TRUE(mdp) << message(mdp.error());
+    at = end + 1;
+  }
+  EXPECT_EQ(lines, 4);
+}
+
+// Damaged files: any answer but a crash (run under sanitizers), and valid models stay valid.
+TEST(Toml, DamagedFilesAreAnsweredCalmly) {
+  const auto file = read_file(QUOLL_SOURCE "/worlds/adventure.toml");
+  ASSERT_TRUE(file);
+  Rng rng = stream(11, "toml");
+  int accepted = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    std::string text = *file;
+    for (std::uint32_t i = 0; i < 1 + rng.below(3); ++i) {
+      const std::size_t at = rng.below(static_cast<std::uint32_t>(text.size()));
+      constexpr std::string_view letters = "[]{}=\",.#'\n\\0A-\xff";
+      if (rng.below(2)) {
+        text[at] = letters[rng.below(static_cast<std::uint32_t>(letters.size()))];
+      } else {
+        text.erase(at, 1 + rng.below(20));
+      }
+    }
+    const auto mdp = parsed(text);
+    if (!mdp) {
+      ASSERT_FALSE(message(mdp.error()).empty());
+      ASSERT_EQ(message(mdp.error()).find('\n'), std::string::npos) << message(mdp.error());
+      continue;
+    }
+    ++accepted;
+    ASSERT_TRUE(write_toml(*mdp));
+  }
+  EXPECT_GT(accepted, 100);
+  EXPECT_LT(accepted, 900);
 }
 
 void expect_equal(const Mdp& a, const Mdp& b) {
