@@ -18,7 +18,8 @@ class Names {
   /// `count` names "0", "1", ... with a prefix.
   static Names numbered(std::string prefix, std::uint64_t count);
 
-  /// Names "r3c14" for cells of a grid `columns` wide; `cells[i]` = row * columns + column of name i.
+  /// Names "r3c14" for cells of a grid `columns` wide; `cells[i]` = row * columns + column of name
+  /// i.
   static Names cells(std::uint32_t columns, std::vector<std::uint32_t> cells);
 
   /// Stored names, one after the other; offsets has one more entry than there are names.
@@ -44,11 +45,11 @@ class Names {
  private:
   enum class Kind : std::uint8_t { stored, numbered, cells };
   Kind kind_ = Kind::stored;
-  std::string text_;                     // stored: all names; numbered: the prefix
-  std::vector<std::uint64_t> offsets_;   // stored: begin of each name, and the end
-  std::vector<std::uint32_t> cells_;     // cells: row * columns + column
-  std::uint64_t count_ = 0;              // numbered
-  std::uint32_t columns_ = 0;            // cells
+  std::string text_;                    // stored: all names; numbered: the prefix
+  std::vector<std::uint64_t> offsets_;  // stored: begin of each name, and the end
+  std::vector<std::uint32_t> cells_;    // cells: row * columns + column
+  std::uint64_t count_ = 0;             // numbered
+  std::uint32_t columns_ = 0;           // cells
 };
 
 }  // namespace quoll
