@@ -118,7 +118,7 @@ class Prover {
     constexpr unsigned most_sweeps = 200'000;
     constexpr double most_moves = 1e9;
     bool backward = true;
-    double change = infinity;
+    double change = 1.0;
     for (unsigned k = 0; k < most_sweeps && change > 0.25 && change < most_moves; ++k) {
       change = 0.0;
       for (State i = 0; i < mdp_.states(); ++i) {

@@ -1,0 +1,156 @@
+#include "quoll/solve/optimality.hpp"
+
+#include <gtest/gtest.h>
+
+#include "models.hpp"
+#include "quoll/model/grid.hpp"
+#include "quoll/model/maze.hpp"
+#include "quoll/solve/solver.hpp"
+
+namespace quoll {
+namespace {
+
+Mdp maze(std::uint64_t size, double braid, double move_reward, double goal_reward) {
+  MazeSettings settings;
+  settings.size = size;
+  settings.braid = braid;
+  Grid grid = make_maze(settings);
+  grid.move_reward = move_reward;
+  if (goal_reward != 0.0) grid.reward['G'] = goal_reward;
+  Result<Mdp> mdp = to_mdp(grid);
+  return std::move(*mdp);
+}
+
+std::vector<Action> first_actions(const Mdp& mdp) {
+  std::vector<Action> policy(mdp.states(), 0);
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (mdp.terminal(s)) policy[s] = no_action;
+  }
+  return policy;
+}
+
+TEST(Optimality, AZeroTableInALargeMazeIsNotOptimal) {
+  for (const double goal : {0.0, 1.0}) {
+    const Mdp mdp = maze(500, 0.5, goal > 0.0 ? 0.0 : -1.0, goal);
+    SolveSettings settings;
+    settings.discount = 0.99;
+    const auto exact = solve(mdp, settings);
+    ASSERT_TRUE(exact) << message(exact.error());
+    if (goal > 0.0) {
+      EXPECT_LT(exact->upper[mdp.start()[0]], 1e-3);
+      EXPECT_GT(exact->lower[mdp.start()[0]], 0.0);
+    }
+    const Optimality bad = judge(mdp, *exact, first_actions(mdp), mdp.start(), 0.99);
+    EXPECT_EQ(bad.optimal, std::optional(false)) << bad.proof;
+    EXPECT_GT(bad.regret, 0.5);
+    const Optimality good = judge(mdp, *exact, exact->policy, mdp.start(), 0.99);
+    EXPECT_EQ(good.optimal, std::optional(true)) << good.proof;
+    EXPECT_EQ(good.regret_estimate, 0.0);
+    EXPECT_LT(good.regret, 1e-10);
+  }
+}
+
+TEST(Optimality, OneWrongMoveFarFromTheGoalIsFound) {
+  const Mdp mdp = maze(101, 0.0, 0.0, 1.0);
+  SolveSettings settings;
+  settings.discount = 0.99;
+  const auto exact = solve(mdp, settings);
+  ASSERT_TRUE(exact);
+  const State start = mdp.start()[0];
+  std::vector<Action> policy = exact->policy;
+  policy[start] = policy[start] == 0 ? 1 : 0;
+  const Optimality judged = judge(mdp, *exact, policy, mdp.start(), 0.99);
+  EXPECT_EQ(judged.optimal, std::optional(false)) << judged.proof;
+  EXPECT_EQ(judged.worst, start);
+}
+
+TEST(Optimality, TiesAreOptimalAndLossesAreMeasured) {
+  const Mdp mdp = test::adventure();
+  const auto exact = solve(mdp);
+  ASSERT_TRUE(exact);
+  std::vector<Action> policy = exact->policy;
+  policy[*mdp.find_state("POOL")] = no_action;
+  const Optimality judged = judge(mdp, *exact, policy, mdp.start(), 0.8);
+  EXPECT_EQ(judged.optimal, std::optional(false)) << judged.proof;
+  policy = exact->policy;
+  policy[*mdp.find_state("POOL")] = 3;  // To-WELL: as good
+  EXPECT_EQ(judge(mdp, *exact, policy, mdp.start(), 0.8).optimal, std::optional(true));
+  policy[*mdp.find_state("POOL")] = 2;  // To-HALL, then To-CAVE: 64 instead of 80
+  const Optimality worse = judge(mdp, *exact, policy, mdp.start(), 0.8);
+  EXPECT_EQ(worse.optimal, std::optional(false));
+  EXPECT_NEAR(worse.regret, 16.0, 1e-9);  // at POOL; at GATE 64 - 51.2
+  EXPECT_EQ(worse.worst, *mdp.find_state("POOL"));
+  EXPECT_EQ(worse.unreachable, 0u);
+}
+
+TEST(Optimality, AsksOnlyWhereOneCanComeTo) {
+  // From A one comes to B and the end; what is done in C does not matter.
+  MdpBuilder b(1.0);
+  b.move("A", "go", "B", -1).move("B", "go", "END", -1).move("B", "back", "A", -1);
+  b.move("C", "stay", "C", -1).move("C", "go", "A", -1).start("A");
+  const Mdp mdp = test::built(b);
+  const auto exact = solve(mdp);
+  ASSERT_TRUE(exact);
+  const std::vector<Action> policy{0, 0, no_action, 0};
+  ASSERT_EQ(*mdp.find_state("C"), 3u);
+  const Optimality judged = judge(mdp, *exact, policy, mdp.start(), 1.0);
+  EXPECT_EQ(judged.optimal, std::optional(true)) << judged.proof;
+  EXPECT_EQ(judged.unreachable, 1u);
+  const std::vector<State> all{0, 1, 3};
+  EXPECT_EQ(judge(mdp, *exact, policy, all, 1.0).optimal, std::optional(false));
+}
+
+TEST(Optimality, StochasticModelsAreDecidedByTightBounds) {
+  for (const double discount : {0.9, 0.99}) {
+    const Mdp mdp = test::random_model(5, 7, discount);
+    const auto exact = solve(mdp);  // width 1e-6, far above 1e-9
+    ASSERT_TRUE(exact);
+    const Optimality judged = judge(mdp, *exact, exact->policy, mdp.start(), discount);
+    EXPECT_EQ(judged.optimal, std::optional(true)) << judged.proof;
+  }
+  const Mdp mdp = test::two_states();
+  const auto exact = solve(mdp);
+  ASSERT_TRUE(exact);
+  const Optimality judged = judge(mdp, *exact, std::vector<Action>{0, 0}, mdp.start(), 0.5);
+  EXPECT_EQ(judged.optimal, std::optional(false));
+  EXPECT_NEAR(judged.regret, 1.0 / 3, 1e-5);  // 1 - 2/3
+  EXPECT_EQ(judged.worst, 0u);
+}
+
+TEST(Optimality, NeverEndingAtDiscountOneIsNotOptimal) {
+  const Mdp mdp = maze(21, 0.5, -1.0, 0.0);
+  const auto exact = solve(mdp);
+  ASSERT_TRUE(exact);
+  EXPECT_EQ(judge(mdp, *exact, first_actions(mdp), mdp.start(), 1.0).optimal, std::optional(false));
+  const Optimality good = judge(mdp, *exact, exact->policy, mdp.start(), 1.0);
+  EXPECT_EQ(good.optimal, std::optional(true));
+  EXPECT_EQ(good.regret, 0.0);
+}
+
+TEST(Optimality, QStarOfTheLecture) {
+  // Q*(s, a) = r + 0.8 V*(next), with V* = 64, 80, 80, 100, 100, 0.
+  const Mdp mdp = test::adventure();
+  const auto exact = solve(mdp);
+  ASSERT_TRUE(exact);
+  const auto q = [&](const char* s, Action a) {
+    return q_star(mdp, exact->lower, mdp.choice_begin(*mdp.find_state(s)) + a, 0.8);
+  };
+  EXPECT_NEAR(q("GATE", 0), 64, 1e-12);
+  EXPECT_NEAR(q("HALL", 0), 80, 1e-12);
+  EXPECT_NEAR(q("HALL", 1), 64, 1e-12);
+  EXPECT_NEAR(q("POOL", 0), 80, 1e-12);
+  EXPECT_NEAR(q("POOL", 1), 51.2, 1e-12);
+  EXPECT_NEAR(q("POOL", 2), 64, 1e-12);
+  EXPECT_NEAR(q("POOL", 3), 80, 1e-12);
+  EXPECT_NEAR(q("CAVE", 0), 100, 1e-12);
+  EXPECT_NEAR(q("CAVE", 1), 64, 1e-12);
+  EXPECT_NEAR(q("CAVE", 2), 64, 1e-12);
+  EXPECT_NEAR(q("WELL", 0), 100, 1e-12);
+  EXPECT_NEAR(q("WELL", 1), 64, 1e-12);
+  EXPECT_EQ(optimal_actions(mdp, *exact, *mdp.find_state("POOL")), (std::vector<Action>{0, 3}));
+  EXPECT_EQ(optimal_actions(mdp, *exact, *mdp.find_state("HALL")), (std::vector<Action>{0}));
+  EXPECT_TRUE(optimal_actions(mdp, *exact, *mdp.find_state("GOAL")).empty());
+}
+
+}  // namespace
+}  // namespace quoll
