@@ -235,7 +235,7 @@ TEST(Csv, SaysWhereAndWhatIsWrong) {
       {"state,action,next_state,probability,reward,colour\n",
        "w.csv:1:44: expected only the columns state,action,next_state,probability,reward, found "
        "'colour'"},
-      {"state,action,next_state,reward\n", "w.csv: expected a column 'probability'"},
+      {"state,action,next_state,reward\n", "w.csv:1: expected a column 'probability'"},
       {"state,action,state\n", "w.csv:1:14: expected one column 'state'"},
       {header, "w.csv:1: expected at least one row below the header"},
       {header + "A,go,B,1\n", "w.csv:2: expected 5 fields as in the header, found 4"},

@@ -52,6 +52,7 @@ class GridGuess {
       return refuse("moves into state " + mdp_.state_name(*contradiction_) +
                     " have different rewards");
     }
+    if (grid_.slip > 1) return refuse("its moves lead elsewhere");
     grid_.move_reward = move_reward_.value_or(0.0);
     grid_.rows.assign(layout_.rows, std::string(layout_.columns, '#'));
     for (State s = 0; s < mdp_.states(); ++s) {
