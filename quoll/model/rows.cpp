@@ -143,7 +143,7 @@ MdpArrays MdpRows::finish(std::uint32_t states, std::vector<std::uint32_t>& inde
   }
   a.choice_begin.push_back(a.action.size());
   if (!a.outcome_begin.empty()) a.outcome_begin.push_back(size());
-  if (sorting_) sort();
+  if (sorting_ && !a.action.empty()) sort();
   for (State& next : a.next) next = index_[next];
   // Rows that vary decide alone; Mdp::make then takes the expectation.
   if (!a.outcome_reward.empty()) a.reward = {};
@@ -161,7 +161,8 @@ MdpArrays MdpRows::finish(std::uint32_t states, std::vector<std::uint32_t>& inde
 }
 
 // Segments in order of state, then of the first mention of their action, then of the file: a
-// counting sort by state, and within each state a stable sort by the rank of the action.
+// counting sort by state, and within each state a sort by the rank of the action and the place in
+// the file.
 std::vector<std::uint32_t> MdpRows::sorted_segments() {
   std::vector<std::uint64_t> begin(opened_ + std::uint64_t{1}, 0);
   for (const std::uint32_t s : segment_state_) ++begin[s + 1];
@@ -181,10 +182,12 @@ std::vector<std::uint32_t> MdpRows::sorted_segments() {
       seen_in[action] = s;
       rank[action] = ranks++;
     }
+    // Within a state segments stand in order of the file, which is their number.
     const auto before = [&](std::uint32_t left, std::uint32_t right) {
-      return rank[arrays_.action[left]] < rank[arrays_.action[right]];
+      return std::pair(rank[arrays_.action[left]], left) <
+             std::pair(rank[arrays_.action[right]], right);
     };
-    if (!std::is_sorted(first, last, before)) std::stable_sort(first, last, before);
+    std::sort(first, last, before);
   }
   return order;
 }

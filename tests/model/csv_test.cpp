@@ -123,6 +123,13 @@ TEST(Csv, InterleavedRowsGiveTheSameModel) {
   EXPECT_EQ(digest(mixed), digest(grouped));
 }
 
+TEST(Csv, StatesMayBeDeclaredAgain) {
+  EXPECT_NE(refusal(header + "A,,,,\nB,,,,\nA,,,,\n"), "accepted");  // nowhere to start
+  const Mdp m = model(header + "A,,,,\nB,,,,\nA,,,,\nB,go,A,1,0\n");
+  EXPECT_EQ(m.actions(0), 0u);
+  EXPECT_EQ(m.actions(1), 1u);
+}
+
 TEST(Csv, AnActionOpenedAgainKeepsItsFirstPlace) {
   const Mdp m = model(header + "A,x,A,0.5,1\nA,y,B,1,3\nA,x,B,0.5,1\n");
   ASSERT_EQ(m.choices(), 2u);

@@ -163,6 +163,7 @@ TEST(Grid, SaysWhereAndWhatIsWrong) {
       {"moves = 6\nSG\n", "g.txt:1:8: expected moves = 4 or 8"},
       {"move_reward = free\nSG\n", "g.txt:1:14: expected a number for move_reward"},
       {"reward.# = 2\nSG\n", "g.txt:1:1: expected no reward for walls"},
+      {"slip = 0\nslip = 0.5\nSG\n", "g.txt:2:1: expected one 'slip', found a second"},
       {"terminal = GS\nSG\n", "g.txt: expected no 'S' among the letters of ends"},
   };
   for (const auto& [text, expected] : cases) EXPECT_EQ(refusal(text), expected) << text;

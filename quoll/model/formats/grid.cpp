@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -89,6 +90,9 @@ class GridReader {
     const std::size_t after = line.find('=', key_column - 1 + key.size()) + 1;
     const std::string_view value = trim(line.substr(after));
     const std::size_t column = after + 1;
+    if (!seen_.emplace(key).second) {
+      return fail(key_column, "expected one '" + std::string(key) + "', found a second");
+    }
     if (key == "terminal") {
       grid_.terminal.clear();
       for (const char letter : value) {
@@ -128,6 +132,7 @@ class GridReader {
   Lines lines_;
   const std::string& path_;
   Grid grid_;
+  std::set<std::string> seen_;
   Error error_;
 };
 
