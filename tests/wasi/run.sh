@@ -20,20 +20,33 @@ command -v node >/dev/null || skip "no node (package nodejs)"
   2>/dev/null)" ] || skip "no libc++-19-dev-wasm32"
 
 # The header-only libraries of the host, without the host's own libc beside them.
-mkdir -p "$out/include" "$out/objects"
+mkdir -p "$out/include"
 for library in fmt toml++ nlohmann xxhash.h xxh3.h; do
   ln -sfn "/usr/include/$library" "$out/include/$library"
 done
 
 # The core: what compiles without exceptions (docs/design.md, section 5), and the small program.
-flags="--target=wasm32-wasi -std=c++20 -O2 -fno-exceptions -ffp-contract=off -I$root
- -isystem $out/include -I$tree/embedded"
 cd "$root"
-find quoll/base quoll/model quoll/env quoll/act quoll/solve quoll/verify quoll/learn tests/wasi \
-  -name '*.cpp' | sort | CLANG="$clang $flags" OUT="$out/objects" xargs -P "$(nproc)" -n 1 sh -c '
-    $CLANG -c "$0" -o "$OUT/$(printf %s "$0" | tr / _).o"'
-# shellcheck disable=SC2086
-$clang --target=wasm32-wasi "$out"/objects/*.o -o "$out/adventure.wasm"
+{
+  echo "builddir = $out"
+  echo "flags = --target=wasm32-wasi -std=c++20 -O2 -fno-exceptions -ffp-contract=off -DFMT_HEADER_ONLY"
+  echo "rule compile"
+  echo "  command = $clang \$flags -I$root -isystem $out/include -I$tree/embedded -MD -MF \$out.d -c" \
+    "\$in -o \$out"
+  echo "  deps = gcc"
+  echo "  depfile = \$out.d"
+  echo "rule link"
+  echo "  command = $clang --target=wasm32-wasi \$in -o \$out"
+  objects=''
+  for source in $(find quoll/base quoll/model quoll/env quoll/act quoll/solve quoll/verify \
+    quoll/learn tests/wasi -name '*.cpp' | sort); do
+    object=$out/objects/$(printf %s "$source" | tr / _).o
+    echo "build $object: compile $root/$source"
+    objects="$objects $object"
+  done
+  echo "build $out/adventure.wasm: link$objects"
+} >"$out/build.ninja"
+ninja -f "$out/build.ninja" "$out/adventure.wasm"
 
 node --no-warnings tests/wasi/run.mjs "$out/adventure.wasm" >"$out/wasm.txt"
 "$tree/tests/wasi_native" >"$out/native.txt"
