@@ -54,16 +54,26 @@ class Search {
     return true;
   }
 
+  // The first action that brings an end nearer by most on average, among those that may do so: one
+  // that does it only by a slip can take for ever in practice.
   Action nearing(State s) const {
-    for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
+    Action best = 0;
+    double best_moves = 0.0;
+    bool found = false;
+    for (Action a = 0; a < mdp_.actions(s); ++a) {
+      const std::uint64_t c = mdp_.choice_begin(s) + a;
+      double moves = 0.0;
+      bool nearer = false;
       for (std::uint64_t o = mdp_.outcome_begin(c); o < mdp_.outcome_end(c); ++o) {
-        const State next = mdp_.next(o);
-        if (moves_[next] + 1 == moves_[s] && moves_[next] != unreached) {
-          return static_cast<Action>(c - mdp_.choice_begin(s));
-        }
+        moves += mdp_.probability(o) * moves_[mdp_.next(o)];
+        nearer = nearer || moves_[mdp_.next(o)] < moves_[s];
       }
+      if (!nearer || (found && moves >= best_moves)) continue;
+      best = a;
+      best_moves = moves;
+      found = true;
     }
-    return 0;
+    return best;
   }
 
   // Drops live states that cannot reach an end by safe choices; true if any was dropped.

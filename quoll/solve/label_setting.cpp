@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "quoll/model/graph.hpp"
+#include "quoll/solve/ending.hpp"
 #include "quoll/solve/functional_graph.hpp"
 #include "quoll/solve/methods.hpp"
 
@@ -53,19 +53,6 @@ class Predecessors {
   std::vector<std::uint64_t> begin_;
   std::vector<Move> moves_;
 };
-
-// Step 1.
-void count_moves(const Mdp& mdp, const std::vector<std::uint8_t>& live, Solution& solution) {
-  const std::vector<std::uint32_t> moves = moves_to_end(mdp);
-  for (State s = 0; s < mdp.states(); ++s) {
-    if (live[s] == 0 || moves[s] == unreached) continue;
-    for (Action a = 0; a < mdp.actions(s); ++a) {
-      if (moves[mdp.next(mdp.choice_begin(s) + a)] + 1 != moves[s]) continue;
-      solution.policy[s] = a;
-      break;
-    }
-  }
-}
 
 // Step 2. Among equal moves the first one to a state settled earlier is kept, so that the policy
 // cannot go round in a circle that earns nothing.
@@ -197,7 +184,7 @@ class LabelSettingSolver : public Solver {
     }
     const std::optional<TwoRewards> rewards = two_rewards(mdp);
     if (rewards && fewer_moves_win(*rewards, Discount(*discount), false)) {
-      count_moves(mdp, live, solution);
+      solution.policy = find_ending(mdp).policy;  // step 1
     } else if (no_move_gains(mdp)) {
       LabelSetting(mdp, *discount).run(live, solution);
     } else {

@@ -207,7 +207,7 @@ Optimality judge(const Mdp& mdp, const Solution& exact, std::span<const Action> 
 
 double q_star(const Mdp& mdp, std::span<const double> value, std::uint64_t choice,
               double discount) {
-  return backup<false>(mdp, discount, value.data(), choice);
+  return backup(mdp, discount, value.data(), choice);
 }
 
 std::vector<Action> optimal_actions(const Mdp& mdp, const Solution& solution, State state) {

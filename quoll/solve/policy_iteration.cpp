@@ -13,7 +13,7 @@
 //
 //   1  W <- T V; pi <- the greedy policy of V; MacQueen's bounds; stop when narrow enough
 //   2  evaluate pi: V <- r_pi + g P_pi V in place, to and fro, until the change is a hundredth of
-//      the last residual; go to 1
+//      the last residual, at most 50 times; go to 1
 //
 // Deterministic models are evaluated exactly along the graph instead (functional_graph.hpp).
 // pi: solution.policy, V: value, W: backed_up, P_pi: chain.
@@ -25,7 +25,7 @@ namespace {
 // Step 2. Returns the number of sweeps.
 std::uint64_t evaluate_in_place(const Mdp& chain, double discount, double goal,
                                 std::vector<double>& value) {
-  constexpr unsigned most_sweeps = 200;
+  constexpr unsigned most_sweeps = 50;
   std::uint64_t sweeps = 0;
   bool backward = true;
   for (double change = infinity; change > goal && sweeps < most_sweeps; ++sweeps) {

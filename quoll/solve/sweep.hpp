@@ -17,19 +17,48 @@
 
 namespace quoll {
 
-/// reward + discount * expected value after a choice, in the order of the outcomes.
-template <bool one_outcome>
-double backup(const Mdp& mdp, double discount, const double* value, std::uint64_t choice) {
-  if constexpr (one_outcome) {
-    return mdp.reward(choice) + discount * value[mdp.next(choice)];
-  } else {
-    double mean = 0.0;
-    const std::uint64_t end = mdp.outcome_end(choice);
-    for (std::uint64_t o = mdp.outcome_begin(choice); o < end; ++o) {
-      mean += mdp.probability(o) * value[mdp.next(o)];
-    }
-    return mdp.reward(choice) + discount * mean;
+/// The arrays of a model as the kernel reads them: one outcome per choice, or probabilities for
+/// each.
+struct DeterministicRows {
+  const double* reward;
+  const State* next;
+
+  explicit DeterministicRows(const Mdp& mdp)
+      : reward(mdp.arrays().reward.data()), next(mdp.arrays().next.data()) {}
+
+  /// reward + discount * value after a choice.
+  double backup(double discount, const double* value, std::uint64_t choice) const {
+    return reward[choice] + discount * value[next[choice]];
   }
+};
+
+struct StochasticRows {
+  const double* reward;
+  const State* next;
+  const double* probability;
+  const std::uint64_t* begin;  // null = one outcome per choice
+
+  explicit StochasticRows(const Mdp& mdp)
+      : reward(mdp.arrays().reward.data()),
+        next(mdp.arrays().next.data()),
+        probability(mdp.arrays().probability.data()),
+        begin(mdp.arrays().outcome_begin.empty() ? nullptr : mdp.arrays().outcome_begin.data()) {}
+
+  /// reward + discount * expected value after a choice, summed in the order of the outcomes.
+  double backup(double discount, const double* value, std::uint64_t choice) const {
+    const std::uint64_t end = begin ? begin[choice + 1] : choice + 1;
+    double mean = 0.0;
+    for (std::uint64_t o = begin ? begin[choice] : choice; o < end; ++o) {
+      mean += probability[o] * value[next[o]];
+    }
+    return reward[choice] + discount * mean;
+  }
+};
+
+/// One backup of any model; for loops outside the kernel.
+inline double backup(const Mdp& mdp, double discount, const double* value, std::uint64_t choice) {
+  if (mdp.deterministic()) return DeterministicRows(mdp).backup(discount, value, choice);
+  return StochasticRows(mdp).backup(discount, value, choice);
 }
 
 struct StateRange {
@@ -38,19 +67,20 @@ struct StateRange {
   bool backward = false;
 };
 
-template <bool one_outcome, class Backend>
+template <class Rows, class Backend>
 void sweep_range(const Mdp& mdp, double discount, const double* value, StateRange range,
                  Backend& backend) {
+  const Rows rows(mdp);
   const State count = range.end - range.begin;
   for (State i = 0; i < count; ++i) {
     const State s = range.backward ? range.end - 1 - i : range.begin + i;
     if (mdp.terminal(s)) continue;
     const std::uint64_t begin = mdp.choice_begin(s);
     const std::uint64_t end = mdp.choice_end(s);
-    double best = backup<one_outcome>(mdp, discount, value, begin);
+    double best = rows.backup(discount, value, begin);
     std::uint64_t best_choice = begin;
     for (std::uint64_t c = begin + 1; c < end; ++c) {
-      const double q = backup<one_outcome>(mdp, discount, value, c);
+      const double q = rows.backup(discount, value, c);
       if (q > best) {
         best = q;
         best_choice = c;
@@ -65,9 +95,9 @@ template <class Backend>
 void sweep(const Mdp& mdp, double discount, const double* value, StateRange range,
            Backend& backend) {
   if (mdp.deterministic()) {
-    sweep_range<true>(mdp, discount, value, range, backend);
+    sweep_range<DeterministicRows>(mdp, discount, value, range, backend);
   } else {
-    sweep_range<false>(mdp, discount, value, range, backend);
+    sweep_range<StochasticRows>(mdp, discount, value, range, backend);
   }
 }
 

@@ -110,7 +110,7 @@ class Prover {
     for (State s = 0; s < mdp_.states(); ++s) {
       if (live_[s] == 0) continue;
       for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
-        const bool kept = backup<false>(mdp_, 1.0, value_.data(), c) >= value_[s] - nearness;
+        const bool kept = backup(mdp_, 1.0, value_.data(), c) >= value_[s] - nearness;
         near[c] = (kept || c == mdp_.choice_begin(s) + policy_[s]) && !free_.inside[c];
       }
     }
@@ -151,7 +151,7 @@ class Prover {
     for (State s = 0; s < mdp_.states(); ++s) {
       const std::uint64_t c = mdp_.choice_begin(s) + policy_[s];
       if (live_[s] == 0 || free_.inside[c]) continue;
-      const double q = backup<false>(mdp_, 1.0, value_.data(), c);
+      const double q = backup(mdp_, 1.0, value_.data(), c);
       largest = std::max(largest, std::fabs(q - value_[s]));
     }
     return largest;

@@ -16,9 +16,10 @@
 // 2020 (optimistic value iteration). Rewards may have both signs.
 //
 //   1  pi <- a policy that ends with probability 1 from every live state
-//   2  evaluate pi in place; switch an action only if it is better by more than rounding: then pi
-//      keeps ending, because no cycle gains
-//   3  repeat until nothing switches after an accurate evaluation V
+//   2  evaluate pi in place, at first roughly; switch an action only if it is better by more than
+//      rounding: with accurate values pi then keeps ending, because no cycle gains
+//   3  repeat until nothing switches after an accurate evaluation V; if rough values led to a
+//      policy that does not end, begin again with accurate ones only
 //   4  prove V - e w <= V_pi and V* <= V + e w (total_certificate.hpp)
 //
 // pi: policy, V: value.
@@ -44,20 +45,21 @@ class EndingIteration {
     reward_size_ = std::max(std::fabs(low), std::fabs(high));
   }
 
-  Solution run() {
-    double improvement = infinity;
-    for (bool accurate = false;;) {
-      if (!evaluate(accurate ? rounding() : std::max(rounding(), 0.01 * improvement),
-                    accurate ? settings_.max_sweeps : 100)) {
-        break;
-      }
-      improvement = improve();
-      if (!may_continue(settings_, solution_, improvement)) break;
-      if (improvement == 0.0 && accurate) break;
-      accurate = improvement == 0.0;
+  /// `patient`: never switches before an accurate evaluation, which is Howard's method and slow.
+  Solution run(bool patient) {
+    std::uint64_t patience = patient ? settings_.max_sweeps : 10'000;
+    while (go_on_) {
+      const double change = evaluate(patience);
+      const double improvement = improve();
+      go_on_ = go_on_ && may_continue(settings_, solution_, std::max(change, improvement));
+      if (improvement == 0.0 && change <= rounding()) break;
+      if (!patient)
+        patience = improvement > 0.0 ? 100 : std::min<std::uint64_t>(2 * patience, 10'000);
     }
     return finish();
   }
+
+  bool stopped() const { return !go_on_; }
 
  private:
   double rounding() const {
@@ -68,23 +70,24 @@ class EndingIteration {
     return 8.0 * half_ulp * size;
   }
 
-  // Step 2, first half.
-  bool evaluate(double goal, std::uint64_t most_sweeps) {
+  // Step 2, first half. Returns the last change.
+  double evaluate(std::uint64_t most_sweeps) {
     const Result<Mdp> chain =
         induced_model(mdp_, as_probabilities(mdp_, solution_.policy), std::nullopt, outside_);
-    if (!chain) return false;
+    go_on_ = go_on_ && static_cast<bool>(chain);
+    const double goal = rounding();
     bool backward = true;
     double change = infinity;
-    for (std::uint64_t k = 0; change > goal && k < most_sweeps; ++k) {
+    for (std::uint64_t k = 0; go_on_ && change > goal && k < most_sweeps; ++k) {
       InPlace backend{value_.data()};
       sweep(*chain, 1.0, value_.data(), {0, static_cast<State>(mdp_.states()), backward}, backend);
       change = backend.change;
       backward = !backward;
       ++solution_.sweeps;
       solution_.backups += mdp_.states();
-      if (!may_continue(settings_, solution_, change)) return false;
+      go_on_ = may_continue(settings_, solution_, change);
     }
-    return true;
+    return change;
   }
 
   // Step 2, second half: the largest gain of a switch, 0 if there was none.
@@ -96,7 +99,7 @@ class EndingIteration {
       const double before = value_[s];
       double best = before + doubt;
       for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
-        const double q = backup<false>(mdp_, 1.0, value_.data(), c);
+        const double q = backup(mdp_, 1.0, value_.data(), c);
         if (!(q > best)) continue;
         best = q;
         value_[s] = q;
@@ -125,6 +128,7 @@ class EndingIteration {
   std::vector<double> value_;
   std::vector<bool> outside_;
   double reward_size_ = 0.0;
+  bool go_on_ = true;
   Solution solution_;
 };
 
@@ -143,7 +147,12 @@ Solution solve_ending(const Mdp& mdp, const SolveSettings& settings, std::string
     solution.policy = std::move(ending.policy);
     improve_to_optimum(mdp, settings, 1.0, ending.live, solution);
   } else {
-    solution = EndingIteration(mdp, settings, std::move(ending)).run();
+    EndingIteration quick(mdp, settings, ending);
+    solution = quick.run(false);
+    if (!solution.converged && !quick.stopped()) {
+      EndingIteration thorough(mdp, settings, std::move(ending));
+      solution = thorough.run(true);
+    }
   }
   solution.method = method;
   return solution;
