@@ -43,7 +43,7 @@ TEST(Verify, NamesTheStateThatIsWrong) {
   refused({-2, -1 - 1e-9, 0}, {-2, -1 - 1e-9, 0}, policy, 0);  // lower of A not reached
   refused({-5, -3, 0}, {-2, -1 - 1e-9, 0}, policy, 1);         // upper too low
   refused({-1, -2, 0}, {-2, -1, 0}, policy, 0);                // crossed
-  refused({-11, -9, 1}, {9, 9, 2}, policy, 2);                // an end is worth 0
+  refused({-11, -9, 1}, {9, 9, 2}, policy, 2);                 // an end is worth 0
   refused({-2, -1, 0}, {-2, -1, 0}, {1, 0, no_action}, 0);     // stays for ever
   refused({-2, -1, 0}, {-2, -1, 0}, {no_action, 0, no_action}, 0);
 }
