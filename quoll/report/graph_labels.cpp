@@ -25,10 +25,24 @@ bool holds(const Box& box, const GraphPoint& p) {
   return p.x > box.x && p.x < box.right() && p.y > box.y && p.y < box.bottom();
 }
 
-/// What a label in `box` would hide of arrows; heads weigh most.
-double hidden(const std::vector<Arrow>& arrows, std::size_t own, const Box& box) {
+/// The box around an arrow and its head.
+Box reach_of(const Arrow& arrow) {
+  double left = HUGE_VAL, top = HUGE_VAL, right = -HUGE_VAL, bottom = -HUGE_VAL;
+  for (const GraphPoint& p : arrow.samples) {
+    left = std::min(left, p.x - head_reach);
+    top = std::min(top, p.y - head_reach);
+    right = std::max(right, p.x + head_reach);
+    bottom = std::max(bottom, p.y + head_reach);
+  }
+  return {left, top, right - left, bottom - top};
+}
+
+/// What a label in `box` would hide of arrows; heads weigh most. Stops counting at `limit`.
+double hidden(const std::vector<Arrow>& arrows, const std::vector<Box>& reaches, std::size_t own,
+              const Box& box, double limit) {
   double cost = 0;
-  for (std::size_t i = 0; i < arrows.size(); ++i) {
+  for (std::size_t i = 0; i < arrows.size() && cost < limit; ++i) {
+    if (!box.overlaps(reaches[i])) continue;
     const GraphPoint tip = arrows[i].samples.back();
     const Box head{tip.x - head_reach, tip.y - head_reach, 2 * head_reach, 2 * head_reach};
     if (box.overlaps(head)) cost += 12;
@@ -96,9 +110,13 @@ Box label_size(const Arrow& arrow) {
 }
 
 std::vector<std::optional<Box>> place_labels(const std::vector<Arrow>& arrows,
-                                             const std::vector<Box>& nodes) {
+                                             const std::vector<Box>& nodes, bool all_or_nothing) {
   std::vector<double> length;
-  for (const Arrow& arrow : arrows) length.push_back(length_of(arrow));
+  std::vector<Box> reaches;
+  for (const Arrow& arrow : arrows) {
+    length.push_back(length_of(arrow));
+    reaches.push_back(reach_of(arrow));
+  }
   std::vector<std::size_t> order(arrows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -111,12 +129,14 @@ std::vector<std::optional<Box>> place_labels(const std::vector<Arrow>& arrows,
     std::optional<Box> best;
     for (const Candidate& place : candidates(arrows[i], size)) {
       if (place.strain >= lowest || !is_free(place.box, nodes, placed)) continue;
-      const double cost = place.strain + hidden(arrows, i, place.box);
+      const double cost =
+          place.strain + hidden(arrows, reaches, i, place.box, lowest - place.strain);
       if (cost >= lowest) continue;
       lowest = cost;
       best = place.box;
     }
     placed[i] = best;
+    if (!best && all_or_nothing) break;
   }
   return placed;
 }

@@ -13,8 +13,9 @@ Box label_size(const Arrow& arrow);
 
 /// A place for each label near its own curve, or nothing where none is free. Short arrows choose
 /// first; among free places the one that hides least of other arrows and lies nearest to its
-/// curve's middle. Cost: arrows^2 x some thousand.
+/// curve's middle. `all_or_nothing`: gives up at the first label without a place. Cost: arrows^2 x
+/// some hundred.
 std::vector<std::optional<Box>> place_labels(const std::vector<Arrow>& arrows,
-                                             const std::vector<Box>& nodes);
+                                             const std::vector<Box>& nodes, bool all_or_nothing);
 
 }  // namespace quoll

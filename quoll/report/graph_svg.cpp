@@ -80,7 +80,7 @@ void arrange(Drawing& d, const std::vector<GraphPoint>& places, double unit,
   }
   if (!d.free) return;
   route(d.arrows, d.nodes);
-  d.labels = place_labels(d.arrows, d.nodes);
+  d.labels = place_labels(d.arrows, d.nodes, true);
   for (std::size_t i = 0; i < d.arrows.size(); ++i) {
     if (!d.labels[i] && !d.arrows[i].lines.empty()) d.free = false;
   }
@@ -138,7 +138,9 @@ Drawing drawing_of(const GraphView& view, const std::vector<NodeText>& texts) {
     if (d.free) break;
     if (d.labels.empty() && unit < 1e5) continue;  // boxes still too near: grow in any case
     const Box all = bounds(d);
-    if (std::max(all.width, all.height) > largest_side) break;
+    if (std::max(all.width, all.height) <= largest_side) continue;
+    d.labels = place_labels(d.arrows, d.nodes, false);
+    break;
   }
   return d;
 }
