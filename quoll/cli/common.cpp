@@ -121,8 +121,7 @@ Result<void> GivenSettings::apply(std::vector<Setting> settings) const {
 }
 
 bool print(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
-      std::fflush(stdout) == 0) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) {
     return true;
   }
   fail({"stdout", 0, 0, std::string("cannot be written: ") + std::strerror(errno), ""});
@@ -154,7 +153,9 @@ TerminalStyle stdout_style() {
   return style;
 }
 
-bool stderr_is_terminal() { return isatty(STDERR_FILENO) != 0; }
+bool stderr_is_terminal() {
+  return isatty(STDERR_FILENO) != 0;
+}
 
 namespace {
 volatile std::sig_atomic_t interrupt_count = 0;
@@ -172,14 +173,16 @@ void catch_interrupts() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
 }
-bool interrupted() { return interrupt_count > 0; }
+bool interrupted() {
+  return interrupt_count > 0;
+}
 
 void ProgressDisplay::show(std::uint64_t done_now, std::uint64_t total, double seconds,
                            const std::string& extra, std::uint64_t resumed) {
   const bool terminal = stderr_is_terminal();
   if (quiet_ || seconds - last_ < (terminal ? 0.1 : 2.0) || seconds < 0.5) return;
   last_ = seconds;
-  const Progress progress{done_now, total, seconds, extra, resumed, "steps"};
+  const Progress progress{done_now, total, seconds, extra, resumed, unit_};
   if (terminal) {
     winsize size{};
     const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -68,13 +69,15 @@ bool interrupted();
 /// `quiet`. Shows nothing for works under half a second.
 class ProgressDisplay {
  public:
-  explicit ProgressDisplay(bool quiet) : quiet_(quiet) {}
+  explicit ProgressDisplay(bool quiet, std::string_view unit = "steps")
+      : quiet_(quiet), unit_(unit) {}
   ~ProgressDisplay();
   void show(std::uint64_t done_now, std::uint64_t total, double seconds, const std::string& extra,
             std::uint64_t resumed = 0);
 
  private:
   bool quiet_;
+  std::string_view unit_;
   bool shown_ = false;
   double last_ = 0.0;
 };

@@ -1,0 +1,268 @@
+// quoll evaluate WORLD --policy FILE|uniform: what a policy is worth, state by state.
+
+#include "quoll/solve/evaluate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "quoll/base/file.hpp"
+#include "quoll/base/text.hpp"
+#include "quoll/cli/common.hpp"
+#include "quoll/cli/exact.hpp"
+#include "quoll/cli/policy_file.hpp"
+#include "quoll/cli/verbs.hpp"
+#include "quoll/experiment/evaluation.hpp"
+
+namespace quoll::cli {
+namespace {
+
+/// What can be asked of an evaluation.
+struct EvaluationSettings {
+  double discount = 0.0;
+  double tolerance = 1e-9;
+  std::uint64_t episodes = 0;
+  std::uint64_t seed = 1;
+  std::uint64_t episode_steps = 0;
+
+  void describe(Describer& d) {
+    d("discount", discount, 0, 1, "discount factor of the future; 0 = the world's own");
+    d("tolerance", tolerance, 0, 1e300, "largest upper - lower over all states");
+    d("episodes", episodes, 0, 1e9, "also play so many episodes");
+    d("seed", seed, "which random numbers the episodes take");
+    d("episode_steps", episode_steps,
+      "steps after which an episode is cut off; 0 = the world's limit, or 2,000 or one per state");
+  }
+};
+
+struct EvaluateOptions {
+  WorldOption world;
+  OutputOption output;
+  GivenSettings given;
+  std::string policy;
+};
+
+/// Played episodes and an interval for their mean.
+struct Sampled {
+  Played played;
+  Statistics statistics;
+};
+
+struct Evaluated {
+  const World& world;
+  const Mdp& mdp;
+  std::string policy;
+  std::vector<Action> actions;  ///< empty for the uniform policy
+  double discount = 1.0;
+  Evaluation value;
+  double seconds = 0.0;
+  std::optional<Sampled> sampled;
+
+  Interval start() const { return start_value(mdp, value.lower, value.upper); }
+  Action action(State s) const { return actions.empty() ? no_action : actions[s]; }
+  double width() const {
+    double largest = 0.0;
+    for (State s = 0; s < mdp.states(); ++s) {
+      if (value.lower[s] != value.upper[s]) {
+        largest = std::max(largest, value.upper[s] - value.lower[s]);
+      }
+    }
+    return largest;
+  }
+};
+
+/// Plays in blocks with random numbers of their own; the interval is the bootstrap over blocks.
+Sampled sample(const Evaluated& of, const EvaluationSettings& asked) {
+  std::uint64_t cut = asked.episode_steps > 0 ? asked.episode_steps : of.world.episode_steps;
+  if (cut == 0) cut = std::max<std::uint64_t>(2000, of.mdp.states());
+  const TablePolicy policy(of.actions);
+  const std::uint64_t blocks = std::min<std::uint64_t>(asked.episodes, 1000);
+  Sampled sampled;
+  std::vector<double> means;
+  for (std::uint64_t i = 0; i < blocks; ++i) {
+    const std::uint64_t count = asked.episodes / blocks + (i < asked.episodes % blocks ? 1 : 0);
+    const Played part = play(of.world, policy, count, asked.seed + i, of.discount, cut);
+    const double share = static_cast<double>(count) / static_cast<double>(asked.episodes);
+    sampled.played.episodes += count;
+    sampled.played.mean += share * part.mean;
+    sampled.played.mean_discounted += share * part.mean_discounted;
+    sampled.played.mean_steps += share * part.mean_steps;
+    sampled.played.ended += share * part.ended;
+    means.push_back(part.mean);
+  }
+  sampled.statistics = statistics(means);
+  return sampled;
+}
+
+void write_sampled(JsonWriter& json, const std::optional<Sampled>& sampled) {
+  if (!sampled) {
+    json.null_member("evaluation");
+    return;
+  }
+  json.key("evaluation").begin_object();
+  json.member("episodes", sampled->played.episodes).member("mean", sampled->played.mean);
+  for (const auto& [key, bound] : {std::pair{"lower", sampled->statistics.lower},
+                                   std::pair{"upper", sampled->statistics.upper}}) {
+    if (bound)
+      json.member(key, *bound);
+    else
+      json.null_member(key);
+  }
+  json.member("mean_discounted", sampled->played.mean_discounted);
+  json.member("mean_steps", sampled->played.mean_steps);
+  json.member("ended", sampled->played.ended).end_object();
+}
+
+std::string evaluate_json(const Evaluated& of, bool all) {
+  JsonWriter json(JsonStyle::pretty);
+  json.begin_object();
+  json.member("world", of.world.name).member("policy", of.policy);
+  json.member("states", of.mdp.states()).member("discount", of.discount);
+  json.member("seconds", of.seconds);
+  write_interval(json, "start", of.start());
+  json.member("width", of.width()).member("converged", of.value.converged);
+  json.rows("values", of.mdp.states(), all, [&](std::uint64_t i) {
+    const auto s = static_cast<State>(i);
+    json.begin_object().member("state", of.mdp.state_name(s));
+    json.member("lower", of.value.lower[s]).member("upper", of.value.upper[s]);
+    write_action(json, "action", of.mdp, s, of.action(s));
+    json.end_object();
+  });
+  write_sampled(json, of.sampled);
+  json.end_object();
+  return json.text() + "\n";
+}
+
+/// V of the policy per state, as an interval where its bounds differ in print.
+std::string value_lines(const Evaluated& of, bool all) {
+  constexpr std::uint64_t few_states = 20;
+  const std::uint64_t shown = all ? of.mdp.states() : std::min(few_states, of.mdp.states());
+  bool interval = false;
+  for (State s = 0; s < shown; ++s) {
+    interval = interval || number_text(of.value.lower[s]) != number_text(of.value.upper[s]);
+  }
+  using Align = TextTable::Align;
+  std::vector<TextTable::Column> columns{{"state"}, {interval ? "V from" : "V", Align::point}};
+  if (interval) columns.push_back({"to", Align::point});
+  columns.push_back({"move"});
+  TextTable table(std::move(columns));
+  for (State s = 0; s < shown; ++s) {
+    std::vector<std::string> row{of.mdp.state_name(s), number_text(of.value.lower[s])};
+    if (interval) row.push_back(number_text(of.value.upper[s]));
+    const Action a = of.action(s);
+    row.push_back(of.mdp.terminal(s)   ? "(end)"
+                  : of.actions.empty() ? "any"
+                  : a == no_action     ? "(none known)"
+                                       : of.mdp.action_name(of.mdp.choice_begin(s) + a));
+    table.row(std::move(row));
+  }
+  std::string text = table.text();
+  if (shown < of.mdp.states()) {
+    text += fmt::format("... and {} more states (use --json --all or -o FILE)\n",
+                        grouped(of.mdp.states() - shown));
+  }
+  return text;
+}
+
+std::string evaluate_text(const Evaluated& of, bool all) {
+  std::string text =
+      fmt::format("evaluate {}   policy {}, {} states, discount {}\n\n", of.world.name, of.policy,
+                  grouped(of.mdp.states()), shortest(of.discount));
+  text += value_lines(of, all) + "\n";
+  const Interval start = of.start();
+  text += "start value ";
+  if (number_text(start.lower) == number_text(start.upper))
+    text += number_text(start.lower);
+  else
+    text += fmt::format("in [{}, {}]", number_text(start.lower), number_text(start.upper));
+  text += fmt::format(", every interval at most {} wide\n", number_text(of.width()));
+  if (!of.actions.empty()) {
+    std::uint64_t unknown = 0;
+    for (State s = 0; s < of.mdp.states(); ++s) {
+      unknown += !of.mdp.terminal(s) && of.actions[s] == no_action;
+    }
+    if (unknown > 0) {
+      text += fmt::format("{} states have no action in this policy: anything may happen there\n",
+                          grouped(unknown));
+    }
+  }
+  if (!of.sampled) return text;
+  const Played& played = of.sampled->played;
+  text += fmt::format("{} episodes: mean return {}", grouped(played.episodes),
+                      number_text(played.mean));
+  if (of.sampled->statistics.lower) {
+    text += fmt::format(" (95 % interval [{}, {}])", number_text(*of.sampled->statistics.lower),
+                        number_text(*of.sampled->statistics.upper));
+  }
+  return text + fmt::format(", discounted {}, {:.0f} % reach an end, {} steps on average\n",
+                            number_text(played.mean_discounted), 100 * played.ended,
+                            number_text(played.mean_steps));
+}
+
+Result<Evaluated> evaluated(const EvaluateOptions& options, const EvaluationSettings& asked,
+                            const World& world) {
+  const Mdp& mdp = *world.mdp;
+  Evaluated of{world, mdp, options.policy, {}, world.discount, {}, 0.0, {}};
+  if (asked.discount > 0.0) of.discount = asked.discount;
+  if (options.policy != "uniform") {
+    Result<std::vector<Action>> actions = read_policy(options.policy, world);
+    if (!actions) return actions.error();
+    of.actions = std::move(*actions);
+  } else if (asked.episodes > 0) {
+    return Error{"--episodes", 0, 0,
+                 "the uniform policy is evaluated exactly; episodes need a policy from a file", ""};
+  }
+  const auto begun = std::chrono::steady_clock::now();
+  Result<Evaluation> value =
+      options.policy == "uniform"
+          ? quoll::evaluate(mdp, uniform_policy(mdp), of.discount, asked.tolerance)
+          : quoll::evaluate(mdp, std::span<const Action>(of.actions), of.discount, asked.tolerance);
+  if (!value) return value.error();
+  of.value = std::move(*value);
+  of.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  if (asked.episodes > 0) of.sampled = sample(of, asked);
+  return of;
+}
+
+Exit evaluate(const EvaluateOptions& options) {
+  EvaluationSettings asked;
+  const Result<void> applied = options.given.apply(settings_of(asked));
+  if (!applied) return fail(applied.error());
+  const Result<World> world = options.world.open();
+  if (!world) return fail(world.error());
+  if (options.policy.empty()) {
+    return fail(
+        {"--policy", 0, 0, "uniform or a file that ends in .csv, .json or .quoll expected", ""});
+  }
+  if (!world->mdp) {
+    return fail({"", 0, 0, "the model of " + world->name + " is not known", ""});
+  }
+  const Result<Evaluated> of = evaluated(options, asked, *world);
+  if (!of) return fail(of.error());
+  if (!options.output.file.empty()) {
+    const Result<void> written = write_file(options.output.file, evaluate_json(*of, true));
+    if (!written) return fail(written.error());
+  }
+  const bool all = options.output.all;
+  if (!print(options.output.json ? evaluate_json(*of, all) : evaluate_text(*of, all))) {
+    return user_error;
+  }
+  return of->value.converged ? done : goal_missed;
+}
+
+}  // namespace
+
+void declare_evaluate(Options& options) {
+  auto given = std::make_shared<EvaluateOptions>();
+  EvaluationSettings defaults;
+  given->world.declare(options);
+  options.option("--policy", &given->policy, "FILE|uniform",
+                 "the policy: a .csv, .json or .quoll file, or uniform");
+  given->given.declare_flags(options, settings_of(defaults));
+  given->output.declare(options, "also write the JSON object, complete, to a file");
+  options.run([given] { return evaluate(*given); });
+}
+
+}  // namespace quoll::cli

@@ -1,0 +1,65 @@
+#include "quoll/cli/exact.hpp"
+
+#include <utility>
+
+#include "quoll/solve/optimality.hpp"
+#include "quoll/solve/rounding.hpp"
+
+namespace quoll::cli {
+
+Interval start_value(const Mdp& mdp, std::span<const double> lower, std::span<const double> upper) {
+  Interval sum;
+  if (mdp.start().size() == 1) return {lower[mdp.start()[0]], upper[mdp.start()[0]]};
+  for (std::uint64_t i = 0; i < mdp.start().size(); ++i) {
+    const State s = mdp.start()[i];
+    const double share = mdp.start_probability(i);
+    if (share == 0.0) continue;
+    sum.lower = add_down(sum.lower, scale_down(share, lower[s]));
+    sum.upper = add_up(sum.upper, scale_up(share, upper[s]));
+  }
+  return sum;
+}
+
+OptimalActions::OptimalActions(const Mdp& mdp, const Solution& solution, bool maximise)
+    : mdp_(mdp), solution_(solution) {
+  if (maximise) return;
+  MdpArrays arrays = mdp.arrays();
+  for (double& reward : arrays.reward) reward = -reward;
+  for (double& reward : arrays.outcome_reward) reward = -reward;
+  Result<Mdp> turned = Mdp::make(std::move(arrays));
+  if (!turned) return;  // cannot happen: only signs differ from a valid model
+  turned_.push_back(std::move(*turned));
+  mirrored_.push_back(solution);
+  std::swap(mirrored_[0].lower, mirrored_[0].upper);
+  for (double& value : mirrored_[0].lower) value = -value;
+  for (double& value : mirrored_[0].upper) value = -value;
+}
+
+std::vector<Action> OptimalActions::of(State state) const {
+  return turned_.empty() ? optimal_actions(mdp_, solution_, state)
+                         : optimal_actions(turned_[0], mirrored_[0], state);
+}
+
+std::vector<std::uint8_t> OptimalActions::flags(std::uint64_t states) const {
+  std::vector<std::uint8_t> flags(mdp_.choices(), 0);
+  for (State s = 0; s < states && s < mdp_.states(); ++s) {
+    for (const Action a : of(s)) flags[mdp_.choice_begin(s) + a] = 1;
+  }
+  return flags;
+}
+
+void write_interval(JsonWriter& json, std::string_view key, const Interval& interval) {
+  json.key(key).begin_object();
+  json.member("lower", interval.lower).member("upper", interval.upper).end_object();
+}
+
+void write_action(JsonWriter& json, std::string_view key, const Mdp& mdp, State state,
+                  Action action) {
+  if (action == no_action) {
+    json.null_member(key);
+  } else {
+    json.member(key, mdp.action_name(mdp.choice_begin(state) + action));
+  }
+}
+
+}  // namespace quoll::cli

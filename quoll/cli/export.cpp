@@ -1,0 +1,115 @@
+// quoll export RUN --to c|json|csv: the policy of a saved run, for other programs.
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "quoll/base/file.hpp"
+#include "quoll/base/text.hpp"
+#include "quoll/cli/common.hpp"
+#include "quoll/cli/judged_run.hpp"
+#include "quoll/cli/policy_file.hpp"
+#include "quoll/cli/verbs.hpp"
+#include "quoll/report/export_policy.hpp"
+
+namespace quoll::cli {
+namespace {
+
+struct ExportOptions {
+  std::string run;
+  std::string to;
+  std::string file;
+  std::string name;
+};
+
+struct Target {
+  std::string_view name, extension;
+  std::string (*write)(const PolicyExport& policy);
+};
+constexpr std::array<Target, 3> targets{
+    {{"c", ".h", policy_c}, {"json", ".json", policy_json}, {"csv", ".csv", policy_csv}}};
+
+/// By --to, else by the ending of -o.
+Result<const Target*> find_target(const ExportOptions& options) {
+  Nearest nearest(options.to);
+  for (const Target& target : targets) {
+    nearest.offer(target.name);
+    if (options.to == target.name) return &target;
+    if (options.to.empty() && options.file.ends_with(target.extension)) return &target;
+  }
+  return Error{"--to", 0, 0, "c, json or csv expected, not '" + options.to + "'", nearest.best()};
+}
+
+/// What the head of the file says about the policy.
+Result<std::vector<std::string>> origin(const Run& run, const JudgedRun& judged) {
+  const JudgedSeed& seed = judged.seeds.front();
+  const LearnSettings& learn = run.settings().learn;
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("Learned by {}, rule {}, discount {}, seed {}, {} steps.",
+                              learn.method, learn.rule, shortest(run.discount()), seed.seed,
+                              grouped(seed.steps)));
+  const Optimality& judgement = seed.optimality;
+  const std::string_view answer = !judgement.optimal   ? "not decided"
+                                  : *judgement.optimal ? "yes"
+                                                       : "no";
+  lines.push_back(fmt::format("Optimal: {} ({}).", answer, judgement.proof));
+  if (judged.verdict.accepted) {
+    lines.push_back(fmt::format("Certified: no state reachable from its starts loses more than {}.",
+                                shortest(judgement.regret)));
+  } else {
+    lines.push_back("No certificate: the bounds do not hold: " + judged.verdict.reason + ".");
+  }
+  return lines;
+}
+
+Result<std::string> exported(const ExportOptions& options, const Target& target) {
+  const std::string file = run_file(options.run);
+  const Result<Run> run = Run::load(file, false);
+  if (!run) return run.error();
+  const std::string reason = unsound(*run);
+  if (!reason.empty()) return Error{file, 0, 0, "not exported: " + reason, ""};
+  if (!run->world().mdp) {
+    return Error{file, 0, 0, "the states of " + run->world().name + " cannot be listed", ""};
+  }
+  PolicyExport policy;
+  policy.mdp = run->world().mdp.get();
+  policy.name = options.name.empty() ? run->world().name : options.name;
+  const Result<JudgedRun> judged = judge_run(*run, 1);
+  std::vector<Action> actions;
+  if (judged) {
+    actions = judged->seeds.front().policy;
+    const Result<std::vector<std::string>> lines = origin(*run, *judged);
+    if (!lines) return lines.error();
+    policy.origin = *lines;
+  } else {
+    actions = greedy_policy(run->trainings().front().learner().estimates());
+    policy.origin = {"No certificate: " + message(judged.error())};
+  }
+  policy.policy = actions;
+  return target.write(policy);
+}
+
+Exit export_policy(const ExportOptions& options) {
+  const Result<const Target*> target = find_target(options);
+  if (!target) return fail(target.error());
+  const Result<std::string> text = exported(options, **target);
+  if (!text) return fail(text.error());
+  if (options.file.empty()) return print(*text) ? done : user_error;
+  const Result<void> written = write_file(options.file, *text);
+  if (!written) return fail(written.error());
+  return done;
+}
+
+}  // namespace
+
+void declare_export(Options& options) {
+  auto given = std::make_shared<ExportOptions>();
+  options.word("run", given->run, "a saved run: run.quoll, or the folder of a run");
+  options.option("--to", &given->to, "c | json | csv", "what to write; without: by the name of -o");
+  options.option("-o,--output", &given->file, "FILE", "the file to write; without: on stdout");
+  options.option("--name", &given->name, "NAME",
+                 "what the C names begin with; without: the world's name");
+  options.run([given] { return export_policy(*given); });
+}
+
+}  // namespace quoll::cli

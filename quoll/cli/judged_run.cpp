@@ -1,0 +1,45 @@
+#include "quoll/cli/judged_run.hpp"
+
+#include <algorithm>
+
+#include "quoll/solve/solver.hpp"
+
+namespace quoll::cli {
+
+std::string unsound(const Run& run) {
+  if (run.entry().sound) return "";
+  return "the rule " + run.settings().learn.rule +
+         " never looks at the rewards it receives, so its values estimate nothing; learn with "
+         "--rule standard";
+}
+
+Result<JudgedRun> judge_run(const Run& run, std::size_t most) {
+  const Mdp* mdp = run.world().mdp.get();
+  if (mdp == nullptr) {
+    return Error{"", 0, 0, "no certificate: the model of " + run.world().name + " is not known",
+                 ""};
+  }
+  const Result<TabularSetup> setup = resolve(run.settings().learn, run.world());
+  if (!setup) return setup.error();
+  SolveSettings settings;
+  settings.discount = run.discount();
+  settings.width = 1e-9;
+  Result<Solution> exact = solve(*mdp, settings);
+  if (!exact) return exact.error();
+  Result<Verdict> verdict = verify(*mdp, exact->lower, exact->upper, exact->policy, run.discount());
+  if (!verdict) return verdict.error();
+  JudgedRun judged{std::move(*exact), std::move(*verdict), {}};
+  for (std::size_t i = 0; i < std::min(most, run.trainings().size()); ++i) {
+    const Training& training = run.trainings()[i];
+    JudgedSeed seed;
+    seed.seed = training.seed();
+    seed.steps = training.learner().progress().steps;
+    seed.policy = greedy_policy(training.learner().estimates());
+    seed.optimality =
+        judge(*mdp, judged.exact, seed.policy, setup->starts.states(), run.discount());
+    judged.seeds.push_back(std::move(seed));
+  }
+  return judged;
+}
+
+}  // namespace quoll::cli

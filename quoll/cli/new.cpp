@@ -1,0 +1,127 @@
+// quoll new KIND: a world file to begin with.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+
+#include "quoll/base/file.hpp"
+#include "quoll/base/text.hpp"
+#include "quoll/cli/common.hpp"
+#include "quoll/cli/verbs.hpp"
+#include "quoll/model/maze.hpp"
+#include "quoll/model/templates.hpp"
+
+namespace quoll::cli {
+namespace {
+
+struct NewOptions {
+  std::string kind;
+  std::vector<std::string> with;
+  std::string file;
+  bool force = false;
+};
+
+Result<std::string> maze_text(const std::vector<std::pair<std::string, std::string>>& with) {
+  MazeSettings settings;
+  const std::vector<Setting> known = settings_of(settings);
+  for (const auto& [key, text] : with) {
+    const Setting* setting = find(known, key);
+    if (!setting) {
+      Nearest nearest(key);
+      for (const Setting& one : known) nearest.offer(one.name);
+      return Error{"--with", 0, 0, "a maze has size, seed and braid, not '" + key + "'",
+                   nearest.best()};
+    }
+    const Result<void> assigned = assign(*setting, text, "--with " + key);
+    if (!assigned) return assigned.error();
+  }
+  return to_text(make_maze(settings));
+}
+
+Result<std::string> fixed_text(std::string_view text, std::string_view kind,
+                               const std::vector<std::pair<std::string, std::string>>& with) {
+  if (with.empty()) return std::string(text);
+  return Error{"--with", 0, 0,
+               "a " + std::string(kind) + " takes no parameters, not '" + with[0].first + "'", ""};
+}
+
+using Parameters = std::vector<std::pair<std::string, std::string>>;
+
+struct Kind {
+  std::string_view name;
+  std::string_view extension;
+  Result<std::string> (*make)(const Parameters& with);
+};
+
+constexpr std::array<Kind, 3> kinds{{
+    {"maze", ".txt", maze_text},
+    {"template", ".toml",
+     [](const Parameters& with) { return fixed_text(toml_template(), "template", with); }},
+    {"csv-template", ".csv",
+     [](const Parameters& with) { return fixed_text(csv_template(), "csv-template", with); }},
+}};
+
+Result<const Kind*> find_kind(const std::string& name) {
+  Nearest nearest(name);
+  for (const Kind& kind : kinds) {
+    if (kind.name == name) return &kind;
+    nearest.offer(kind.name);
+  }
+  return Error{"new", 0, 0, "maze, template or csv-template expected, not '" + name + "'",
+               nearest.best()};
+}
+
+/// A file that could not be read as what it is, or that would replace another.
+Result<void> may_write(const NewOptions& options, const Kind& kind) {
+  const std::string& file = options.file;
+  if (!file.ends_with(kind.extension) || file.size() == kind.extension.size()) {
+    return Error{"-o", 0, 0,
+                 fmt::format("a name that ends in {} expected for a {}, not '{}'", kind.extension,
+                             kind.name, file),
+                 ""};
+  }
+  if (!options.force && access(file.c_str(), F_OK) == 0) {
+    return Error{file, 0, 0, "exists already; --force replaces it", ""};
+  }
+  return {};
+}
+
+Exit make_new(const NewOptions& options) {
+  const Result<const Kind*> kind = find_kind(options.kind);
+  if (!kind) return fail(kind.error());
+  const Result<WorldSource> source = WorldOption{"", options.with}.source();
+  if (!source) return fail(source.error());
+  if (!options.file.empty()) {
+    const Result<void> may = may_write(options, **kind);
+    if (!may) return fail(may.error());
+  }
+  const Result<std::string> text = (*kind)->make(source->parameters);
+  if (!text) return fail(text.error());
+  if (options.file.empty()) return print(*text) ? done : user_error;
+  const Result<void> written = write_file(options.file, *text);
+  if (!written) return fail(written.error());
+  return print(fmt::format("wrote {0}\nNext: quoll check {0} | quoll solve {0} | quoll learn {0}\n",
+                           options.file))
+             ? done
+             : user_error;
+}
+
+}  // namespace
+
+void declare_new(Options& options) {
+  auto given = std::make_shared<NewOptions>();
+  options.word("kind", given->kind, "maze, template or csv-template");
+  MazeSettings maze;
+  std::string keys;
+  for (const Setting& setting : settings_of(maze)) {
+    keys += fmt::format("{}{} [{}]", keys.empty() ? "" : ", ", setting.name, text_of(setting));
+  }
+  options.option("--with", &given->with, "KEY=VALUE",
+                 "a parameter, may be repeated; of a maze: " + keys);
+  options.option("-o,--output", &given->file, "FILE", "the file to write; without: on stdout");
+  options.flag("--force", &given->force, "replace a file that exists");
+  options.run([given] { return make_new(*given); });
+}
+
+}  // namespace quoll::cli

@@ -1,0 +1,197 @@
+#include "quoll/cli/policy_file.hpp"
+
+#include <sys/stat.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "quoll/base/file.hpp"
+#include "quoll/base/text.hpp"
+#include "quoll/experiment/run.hpp"
+#include "quoll/model/digest.hpp"
+#include "quoll/model/formats/fields.hpp"
+#include "quoll/model/formats/lines.hpp"
+
+namespace quoll::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Collects named pairs of a file into one action per state.
+class PolicyBuilder {
+ public:
+  explicit PolicyBuilder(const Mdp& mdp)
+      : mdp_(mdp), actions_(mdp.states(), no_action), given_(mdp.states(), false) {}
+
+  /// `place` names the file, and the line if it has one; no action = nothing to do there.
+  Result<void> add(std::string_view state, std::optional<std::string_view> action, Error place) {
+    const std::optional<State> s = mdp_.find_state(state);
+    if (!s) {
+      place.expected = "no state '" + std::string(state) + "' in this world";
+      place.nearest = mdp_.arrays().state_names.nearest(state);
+      return place;
+    }
+    if (given_[*s]) {
+      place.expected = "state " + std::string(state) + " stands twice";
+      return place;
+    }
+    given_[*s] = true;
+    if (!action) return {};
+    return set(*s, *action, std::move(place));
+  }
+
+  std::vector<Action> take() { return std::move(actions_); }
+
+ private:
+  Result<void> set(State s, std::string_view action, Error place) {
+    Nearest nearest(action);
+    for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
+      const std::string name = mdp_.action_name(c);
+      if (name == action) {
+        actions_[s] = static_cast<Action>(c - mdp_.choice_begin(s));
+        return {};
+      }
+      nearest.offer(name);
+    }
+    const auto number = parse_count(action);
+    if (number && *number < mdp_.actions(s)) {
+      actions_[s] = static_cast<Action>(*number);
+      return {};
+    }
+    place.expected = "no action '" + std::string(action) + "' at state " + mdp_.state_name(s);
+    place.nearest = nearest.best();
+    return place;
+  }
+
+  const Mdp& mdp_;
+  std::vector<Action> actions_;
+  std::vector<bool> given_;
+};
+
+Result<std::vector<Action>> read_csv_policy(const std::string& path, const Mdp& mdp) {
+  Result<quoll::Lines> lines = quoll::Lines::open(path);
+  if (!lines) return lines.error();
+  PolicyBuilder builder(mdp);
+  std::string_view line;
+  Fields fields;
+  bool header = false;
+  while (lines->next(line)) {
+    if (trim(line).empty() || line.front() == '#') continue;
+    Error place{path, lines->number(), 0, "", ""};
+    if (const auto bad = fields.split(line)) {
+      place.column = *bad + 1;
+      place.expected = "a quotation mark without its partner";
+      return place;
+    }
+    if (!header) {
+      header = fields.count == 2 && fields.text[0] == "state" && fields.text[1] == "action";
+      if (header) continue;
+      place.expected =
+          "the header state,action expected, not '" + std::string(line.substr(0, 60)) + "'";
+      return place;
+    }
+    if (fields.count != 2) {
+      place.expected = "two fields expected, state,action, not " + std::to_string(fields.count);
+      return place;
+    }
+    std::optional<std::string_view> action;
+    if (!fields.text[1].empty()) action = fields.text[1];
+    const Result<void> added = builder.add(fields.text[0], action, place);
+    if (!added) return added.error();
+  }
+  if (!lines->error().empty()) return Error{path, lines->number(), 0, lines->error(), ""};
+  if (!header) return Error{path, 0, 0, "the header state,action expected; the file is empty", ""};
+  return builder.take();
+}
+
+/// The content as JSON, or the place where it stops to be.
+Result<Json> parse_json(const std::string& content, const std::string& path) {
+  try {
+    return Json::parse(content);
+  } catch (const Json::parse_error& error) {
+    Error place{path, 1, 1, "not JSON", ""};
+    for (std::size_t i = 0; i + 1 < error.byte && i < content.size(); ++i) {
+      place.column = content[i] == '\n' ? 1 : place.column + 1;
+      place.line += content[i] == '\n';
+    }
+    return place;
+  }
+}
+
+Result<void> add_json_row(PolicyBuilder& builder, const Json& row, Error place) {
+  const bool object = row.is_object() && row.contains("state") && row["state"].is_string();
+  if (!object || !row.contains("action") ||
+      !(row["action"].is_string() || row["action"].is_null() || row["action"].is_number())) {
+    place.expected += "an object with a state and an action (names) expected";
+    return place;
+  }
+  place.expected.clear();
+  const auto& state = row["state"].get_ref<const std::string&>();
+  if (row["action"].is_null()) return builder.add(state, std::nullopt, std::move(place));
+  const std::string action =
+      row["action"].is_string() ? row["action"].get<std::string>() : row["action"].dump();
+  return builder.add(state, action, std::move(place));
+}
+
+Result<std::vector<Action>> read_json_policy(const std::string& path, const Mdp& mdp) {
+  const Result<std::string> content = read_file(path);
+  if (!content) return content.error();
+  const Result<Json> json = parse_json(*content, path);
+  if (!json) return json.error();
+  const char* list = nullptr;
+  for (const char* name : {"policy", "values"}) {
+    if (list == nullptr && json->is_object() && json->contains(name) && (*json)[name].is_array()) {
+      list = name;
+    }
+  }
+  if (list == nullptr) {
+    return Error{path, 0, 0, "a list \"policy\" or \"values\" expected, as learn and solve write",
+                 ""};
+  }
+  if (json->contains("omitted") && (*json)[list].empty()) {
+    return Error{path, 0, 0,
+                 std::string("the list \"") + list +
+                     "\" was left out; write it with "
+                     "--all",
+                 ""};
+  }
+  PolicyBuilder builder(mdp);
+  std::size_t index = 0;
+  for (const Json& row : (*json)[list]) {
+    const Error place{path, 0, 0, list + ("[" + std::to_string(index++) + "]: "), ""};
+    const Result<void> added = add_json_row(builder, row, place);
+    if (!added) return added.error();
+  }
+  return builder.take();
+}
+
+Result<std::vector<Action>> read_run_policy(const std::string& path, const World& world) {
+  const Result<Run> run = Run::load(path, false);
+  if (!run) return run.error();
+  if (!run->world().mdp || digest(*run->world().mdp) != digest(*world.mdp)) {
+    return Error{
+        path, 0, 0,
+        "this run learned " + run->source().name + ", which is not the model of " + world.name, ""};
+  }
+  return greedy_policy(run->trainings().front().learner().estimates());
+}
+
+}  // namespace
+
+Result<std::vector<Action>> read_policy(const std::string& path, const World& world) {
+  const std::string file = run_file(path);
+  if (file.ends_with(".quoll")) return read_run_policy(file, world);
+  if (file.ends_with(".csv")) return read_csv_policy(file, *world.mdp);
+  if (file.ends_with(".json")) return read_json_policy(file, *world.mdp);
+  return Error{"--policy", 0, 0,
+               "uniform or a file that ends in .csv, .json or .quoll expected, not '" + path + "'",
+               nearest(path, std::vector<std::string>{"uniform"})};
+}
+
+std::string run_file(const std::string& path) {
+  struct stat status{};
+  const bool folder = stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
+  return folder ? path + (path.ends_with('/') ? "" : "/") + "run.quoll" : path;
+}
+
+}  // namespace quoll::cli

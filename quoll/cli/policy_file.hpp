@@ -1,0 +1,23 @@
+#pragma once
+// A policy as a person hands it over: --policy FILE.
+
+#include <string>
+#include <vector>
+
+#include "quoll/base/error.hpp"
+#include "quoll/env/world.hpp"
+
+namespace quoll::cli {
+
+/// The action per state that a file gives for a world with a model; no_action where it says
+/// nothing. By the file's name:
+///   .csv    header state,action; one row per state; an empty action = none
+///   .json   what learn, solve and export write: a list "policy" or "values" with state and action
+///   .quoll  a saved run of the same model: greedy among the actions its first seed visited
+/// Actions are names or numbers from 0. Errors: one line with the place and the nearest name.
+Result<std::vector<Action>> read_policy(const std::string& path, const World& world);
+
+/// A saved run: the file itself, or the file run.quoll of a run folder.
+std::string run_file(const std::string& path);
+
+}  // namespace quoll::cli

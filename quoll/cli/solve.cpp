@@ -1,0 +1,225 @@
+// quoll solve WORLD: the exact answer, with proof.
+
+#include "quoll/solve/solver.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "quoll/base/file.hpp"
+#include "quoll/base/text.hpp"
+#include "quoll/cli/common.hpp"
+#include "quoll/cli/exact.hpp"
+#include "quoll/cli/learn_report.hpp"
+#include "quoll/cli/verbs.hpp"
+#include "quoll/report/grid_text.hpp"
+#include "quoll/report/progress.hpp"
+#include "quoll/solve/methods.hpp"
+
+namespace quoll::cli {
+namespace {
+
+constexpr std::uint64_t few_states = 20;
+
+/// What can be asked of a solve.
+struct ExactSettings {
+  double discount = 0.0;
+  double tolerance = 1e-6;
+  std::string method = "auto";
+  bool minimise = false;
+
+  void describe(Describer& d) {
+    d("discount", discount, 0, 1, "discount factor of the future; 0 = the world's own");
+    d("tolerance", tolerance, 0, 1e300, "largest upper - lower over all states");
+    d("method", method, "auto, or a name from 'quoll list solvers'");
+    d("minimise", minimise, "rewards are costs: find the least");
+  }
+};
+
+struct SolveOptions {
+  WorldOption world;
+  OutputOption output;
+  GivenSettings given;
+  unsigned threads = 0;
+};
+
+/// An answer with what is needed to report it.
+struct Solved {
+  const World& world;
+  const Mdp& mdp;
+  ExactSettings asked;
+  Solution solution;
+  double seconds = 0.0, seconds_load = 0.0;
+
+  Interval start() const { return start_value(mdp, solution.lower, solution.upper); }
+};
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+};
+
+std::string solve_json(const Solved& solved, bool all) {
+  const Mdp& mdp = solved.mdp;
+  const Solution& solution = solved.solution;
+  const OptimalActions optimal(mdp, solution, !solved.asked.minimise);
+  JsonWriter json(JsonStyle::pretty);
+  json.begin_object();
+  json.member("world", solved.world.name).member("states", mdp.states());
+  json.member("choices", mdp.choices()).member("transitions", mdp.outcomes());
+  json.member("discount", solution.discount);
+  json.member("objective", solved.asked.minimise ? "minimise" : "maximise");
+  json.member("method", solution.method).member("sweeps", solution.sweeps);
+  json.member("seconds", solved.seconds).member("seconds_load", solved.seconds_load);
+  write_interval(json, "start", solved.start());
+  json.member("gap", largest_gap(solution)).member("converged", solution.converged);
+  json.rows("values", mdp.states(), all, [&](std::uint64_t i) {
+    const auto s = static_cast<State>(i);
+    json.begin_object().member("state", mdp.state_name(s));
+    json.member("lower", solution.lower[s]).member("upper", solution.upper[s]);
+    write_action(json, "action", mdp, s, solution.policy[s]);
+    json.key("optimal").begin_array();
+    for (const Action a : optimal.of(s)) json.value(mdp.action_name(mdp.choice_begin(s) + a));
+    json.end_array().end_object();
+  });
+  json.end_object();
+  return json.text() + "\n";
+}
+
+std::string heading(const Solved& solved) {
+  const Mdp& mdp = solved.mdp;
+  return fmt::format(
+      "solve {}   {} states, {} choices, {}, discount {}, {}, method {}\n\n", solved.world.name,
+      grouped(mdp.states()), grouped(mdp.choices()),
+      mdp.deterministic() ? "deterministic" : grouped(mdp.outcomes()) + " transitions",
+      shortest(solved.solution.discount), solved.asked.minimise ? "least cost" : "largest reward",
+      solved.solution.method);
+}
+
+/// Q* of every choice beside each other, for worlds that fit on a page.
+std::string q_text(const Solved& solved) {
+  const std::vector<double> q = q_star_all(solved.mdp, solved.solution, solved.solution.discount);
+  QTableView view;
+  view.mdp = &solved.mdp;
+  view.q = q;
+  view.q_is_float = false;
+  view.q_title = "Q*";
+  view.policy = solved.solution.policy;
+  view.states = 0;
+  return q_table(view);
+}
+
+std::string tables(const Solved& solved, const TerminalStyle& style, bool all) {
+  const Mdp& mdp = solved.mdp;
+  const Solution& solution = solved.solution;
+  if (mdp.layout() && mdp.states() > few_states && !all) {
+    const GridView view{&mdp, solution.lower, solution.policy, {}, ""};
+    if (const auto grid = grid_policy_text(view, style)) return *grid + "\n";
+  }
+  const std::uint64_t shown = all ? mdp.states() : few_states;
+  const OptimalActions optimal(mdp, solution, !solved.asked.minimise);
+  const std::vector<std::uint8_t> flags = optimal.flags(shown);
+  ValueTableView view;
+  view.mdp = &mdp;
+  view.lower = solution.lower;
+  view.upper = solution.upper;
+  view.policy = solution.policy;
+  view.optimal = flags;
+  view.states = all ? 0 : few_states;
+  std::string text = value_table(view) + "\n";
+  // The table of Q stars the largest number of a state: for costs that would be the worst.
+  if (mdp.states() <= few_states && !solved.asked.minimise) text += q_text(solved) + "\n";
+  return text;
+}
+
+std::string interval_text(const Interval& interval) {
+  if (interval.lower == interval.upper) return number_text(interval.lower);
+  if (number_text(interval.lower) != number_text(interval.upper)) {
+    return fmt::format("in [{}, {}]", number_text(interval.lower), number_text(interval.upper));
+  }
+  return number_text(interval.lower);
+}
+
+std::string time_text(double seconds) {
+  return seconds < 1.0 ? fmt::format("{:.2g} ms", 1000 * seconds) : duration_text(seconds);
+}
+
+std::string verdict(const Solved& solved) {
+  const Solution& solution = solved.solution;
+  std::string text = "start value " + interval_text(solved.start());
+  text += solution.converged ? ", certified: no state of this policy loses more than "
+                             : ", not as close as asked: the policy may lose up to ";
+  text += number_text(largest_gap(solution)) + "\n";
+  text += fmt::format("{} sweep{} in {} (loaded in {})\n", grouped(solution.sweeps),
+                      solution.sweeps == 1 ? "" : "s", time_text(solved.seconds),
+                      time_text(solved.seconds_load));
+  return text;
+}
+
+Result<Solution> run_solver(const SolveOptions& options, const ExactSettings& asked,
+                            const Mdp& mdp) {
+  SolveSettings settings;
+  settings.width = asked.tolerance;
+  if (asked.discount > 0.0) settings.discount = asked.discount;
+  settings.maximise = !asked.minimise;
+  settings.threads = options.threads;
+  ProgressDisplay display(options.output.quiet, "sweeps");
+  const Stopwatch watch;
+  settings.keep_going = [&](const SolveProgress& now) {
+    display.show(now.sweeps, 0, watch.seconds(), "gap " + number_text(now.gap));
+    return !interrupted();
+  };
+  return quoll::solve(mdp, settings, asked.method);
+}
+
+Exit solve(const SolveOptions& options) {
+  ExactSettings asked;
+  const Result<void> applied = options.given.apply(settings_of(asked));
+  if (!applied) return fail(applied.error());
+  const Stopwatch load;
+  const Result<World> world = options.world.open();
+  if (!world) return fail(world.error());
+  const double seconds_load = load.seconds();
+  if (!world->mdp) {
+    return fail(
+        {"", 0, 0, "the model of " + world->name + " is not known: it cannot be solved", ""});
+  }
+  catch_interrupts();
+  const Stopwatch work;
+  Result<Solution> solution = run_solver(options, asked, *world->mdp);
+  const double seconds = work.seconds();
+  if (!solution) return fail(solution.error());
+  const Solved solved{*world, *world->mdp, asked, std::move(*solution), seconds, seconds_load};
+  if (!options.output.file.empty()) {
+    const Result<void> written = write_file(options.output.file, solve_json(solved, true));
+    if (!written) return fail(written.error());
+  }
+  std::string text;
+  if (options.output.json) {
+    text = solve_json(solved, options.output.all);
+  } else {
+    text = heading(solved) + tables(solved, stdout_style(), options.output.all) + verdict(solved);
+  }
+  if (!print(text)) return user_error;
+  return solved.solution.converged ? done : goal_missed;
+}
+
+}  // namespace
+
+void declare_solve(Options& options) {
+  auto given = std::make_shared<SolveOptions>();
+  ExactSettings defaults;
+  given->world.declare(options);
+  given->given.declare_flags(options, settings_of(defaults));
+  options.option("--threads", &given->threads, "N",
+                 "processors to use; 0 = all; changes no result");
+  given->output.declare(options, "also write the JSON object, complete, to a file");
+  options.run([given] { return solve(*given); });
+}
+
+}  // namespace quoll::cli
