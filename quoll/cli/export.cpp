@@ -37,6 +37,10 @@ Result<const Target*> find_target(const ExportOptions& options) {
     if (options.to == target.name) return &target;
     if (options.to.empty() && options.file.ends_with(target.extension)) return &target;
   }
+  if (options.to.empty()) {
+    return Error{"--to", 0, 0, "c, json or csv expected, or -o with a name in .h, .json or .csv",
+                 ""};
+  }
   return Error{"--to", 0, 0, "c, json or csv expected, not '" + options.to + "'", nearest.best()};
 }
 

@@ -1,8 +1,14 @@
 // quoll <verb> <world> [options]
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
+#include <exception>
 #include <new>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
 
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
@@ -24,27 +30,67 @@ const CLI::App* chosen_verb(const CLI::App& app) {
   return chosen.empty() ? nullptr : chosen.front();
 }
 
+std::string upper_case(std::string text) {
+  for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return text;
+}
+
+// What a word or flag that needs one expects, from its own description.
+std::string expectation(const CLI::Option& option) {
+  if (option.get_positional())
+    return upper_case(option.get_name()) + " expected: " + option.get_description();
+  return option.get_name() + " needs a value: " + option.get_type_name();
+}
+
 // CLI11's errors as one line that says what was expected and the nearest known word.
 Exit explain_parse_error(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* verb = chosen_verb(app);
-  if (const auto* extra = dynamic_cast<const CLI::ExtrasError*>(&error)) {
-    static_cast<void>(extra);
+  const std::string place = verb ? verb->get_name() : "";
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
     const auto remaining = (verb ? verb : &app)->remaining();
     const std::string word = remaining.empty() ? "" : remaining.front();
-    if (!verb) {
-      Nearest nearest(word);
-      for (const Verb& one : verbs()) nearest.offer(one.name);
-      return fail({"", 0, 0, "no verb '" + word + "'; see 'quoll --help'", nearest.best()});
-    }
-    if (word.rfind('-', 0) == 0) {
-      return fail({verb->get_name(), 0, 0, "no option '" + word + "'",
+    if (verb && word.rfind('-', 0) == 0) {
+      return fail({place, 0, 0, "no option '" + word.substr(0, word.find('=')) + "'",
                    nearest_flag(*verb, word.substr(0, word.find('=')))});
     }
-    return fail({verb->get_name(), 0, 0, "one word too many: '" + word + "'", ""});
+    return fail({place, 0, 0, "one word too many: '" + word + "'", ""});
+  }
+  if (verb && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+    for (const CLI::Option* option : verb->get_options()) {
+      if (option->get_required() && option->count() == 0) {
+        return fail({place, 0, 0, expectation(*option), ""});
+      }
+    }
   }
   std::string text = error.what();
   text = text.substr(0, text.find('\n'));
-  return fail({verb ? verb->get_name() : "", 0, 0, text, ""});
+  if (verb && dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    // "--seed: 1 required ... missing": the flag stands in front.
+    const CLI::Option* option = verb->get_option_no_throw(text.substr(0, text.find(':')));
+    if (option) {
+      const bool twice = option->count() > 1;
+      return fail(
+          {place, 0, 0, twice ? option->get_name() + " stands twice" : expectation(*option), ""});
+    }
+  }
+  return fail({place, 0, 0, text, ""});
+}
+
+// The first word must be a verb: said here, because a parser would complain about something else.
+bool first_word_is_wrong(int argc, char** argv, Exit& status) {
+  const std::string word = argv[1];
+  if (word == "-h" || word == "--help" || word == "--version") return false;
+  if (!word.empty() && word.front() == '-') {
+    status = fail({"", 0, 0, "a verb expected before '" + word + "'; see 'quoll --help'", ""});
+    return true;
+  }
+  Nearest nearest(word);
+  for (const Verb& verb : verbs()) {
+    if (verb.name == word) return false;
+    nearest.offer(verb.name);
+  }
+  status = fail({"", 0, 0, "no verb '" + word + "'; see 'quoll --help'", nearest.best()});
+  return true;
 }
 
 // Hands an option's words to where they belong.
@@ -61,6 +107,15 @@ void add_option(CLI::App& app, const Option& option) {
               ->trigger_on_parse();
         } else if constexpr (std::is_same_v<Target, bool*>) {
           return app.add_flag(option.names, *target, option.sentence);
+        } else if constexpr (std::is_same_v<Target, unsigned*>) {
+          const auto take = [target, names = option.names](const std::string& text) {
+            const auto count = parse_count(text);
+            if (!count || *count > 65536) {
+              throw CLI::ValidationError(names, "a whole number expected, not '" + text + "'");
+            }
+            *target = static_cast<unsigned>(*count);
+          };
+          return app.add_option_function<std::string>(option.names, take, option.sentence);
         } else {
           return app.add_option(option.names, *target, option.sentence);
         }
@@ -91,6 +146,8 @@ int run(int argc, char** argv) {
     print(app.help());
     return user_error;
   }
+  Exit wrong = done;
+  if (first_word_is_wrong(argc, argv, wrong)) return wrong;
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -108,10 +165,15 @@ int run(int argc, char** argv) {
 }  // namespace quoll::cli
 
 int main(int argc, char** argv) {
+  // A file beyond the size limit is then a failed write, with its line, and not the end.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return quoll::cli::run(argc, argv);
   } catch (const std::bad_alloc&) {
     std::fputs("quoll: not enough memory for this\n", stderr);
+    return quoll::cli::user_error;
+  } catch (const std::exception& error) {
+    std::fputs((std::string("quoll: ") + error.what() + "\n").c_str(), stderr);
     return quoll::cli::user_error;
   }
 }
