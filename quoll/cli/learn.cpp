@@ -39,10 +39,10 @@ Result<void> agrees(const LearnOptions& options, const Run& run) {
     const Result<void> assigned = assign(*setting, text, "--" + key);
     if (!assigned) return assigned;
     if (text_of(*setting) != before) {
-      return Error{"--" + key, 0, 0,
-                   "the saved run has " + before + ", not " + text +
-                       "; a resumed run keeps its settings",
-                   ""};
+      return Error{
+          "--" + key, 0, 0,
+          "the saved run has " + before + ", not " + text + "; a resumed run keeps its settings",
+          ""};
     }
   }
   if (!options.how.config.empty()) {
@@ -161,7 +161,13 @@ Exit learn(const LearnOptions& options) {
   Result<Run> run = open_run(options, *limits);
   if (!run) return fail(run.error());
   run->set_threads(options.threads);
-  if (options.explain) return learn_explained(*run, *limits, options.output);
+  std::optional<ComingUpdates> coming;
+  if (options.explain) {
+    Result<ComingUpdates> made = coming_updates(*run, *limits, options.output.all);
+    if (!made) return fail(made.error());
+    coming = std::move(*made);
+    if (!options.output.json && !print(updates_text(*run, *coming))) return user_error;
+  }
   catch_interrupts();
   std::string records;
   const Result<void> learned = advance(*run, options, *limits, records);
@@ -171,9 +177,10 @@ Exit learn(const LearnOptions& options) {
     if (!written) return fail(written.error());
   }
   const RunResult result = run->result(true);
-  const std::string text = options.output.json
-                               ? learn_json(*run, result, options.output.all)
-                               : learn_text(*run, result, stdout_style(), options.output.all);
+  const std::string text =
+      options.output.json
+          ? learn_json(*run, result, options.output.all, coming ? &*coming : nullptr)
+          : learn_text(*run, result, stdout_style(), options.output.all);
   if (!print(text)) return user_error;
   return exit_status(*run, *limits);
 }

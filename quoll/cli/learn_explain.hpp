@@ -1,10 +1,33 @@
 #pragma once
 // learn --explain: the same run, each update shown with its numbers.
 
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "quoll/cli/common.hpp"
+#include "quoll/report/json.hpp"
 
 namespace quoll::cli {
 
-Exit learn_explained(Run& run, const RunSettings& limits, const OutputOption& output);
+/// The updates that the run's first seed is about to make.
+struct ComingUpdates {
+  LearnProgress before;  ///< where the learner stood
+  Estimates table;       ///< what it had learned by then
+  std::vector<Update> updates;
+  std::vector<Update> standard;  ///< for as-printed: the standard rule on the same transitions
+  bool more = false;             ///< the run goes on after the last one listed
+};
+
+/// Makes them with a copy of the learner: the run itself is not touched, and will make the same
+/// ones. Up to --steps and --episodes, else until it stops; without either limit about 1,000 lines,
+/// and never more than 100,000 updates unless `all`. Error: a world whose model is not known.
+Result<ComingUpdates> coming_updates(Run& run, const RunSettings& limits, bool all);
+
+/// For people: line by line, episodes marked, or both columns of as-printed.
+std::string updates_text(const Run& run, const ComingUpdates& coming);
+
+/// The member "updates" of the JSON object of `learn`.
+void write_updates(JsonWriter& json, const Run& run, const ComingUpdates& coming, bool all);
 
 }  // namespace quoll::cli

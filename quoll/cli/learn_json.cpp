@@ -8,8 +8,10 @@ namespace {
 
 void optional_bool(JsonWriter& json, std::string_view key, const std::optional<bool>& value) {
   json.key(key);
-  if (value) json.value(*value);
-  else json.null();
+  if (value)
+    json.value(*value);
+  else
+    json.null();
 }
 
 void write_q(JsonWriter& json, const Mdp& mdp, const Estimates& estimates,
@@ -23,8 +25,10 @@ void write_q(JsonWriter& json, const Mdp& mdp, const Estimates& estimates,
     json.member("state", mdp.state_name(owner[c])).member("action", mdp.action_name(c));
     json.key("q").number(estimates.q[c], estimates.single_precision);
     json.member("visits", estimates.visits[c]);
-    if (q_star.empty()) json.null_member("q_star");
-    else json.member("q_star", q_star[c]);
+    if (q_star.empty())
+      json.null_member("q_star");
+    else
+      json.member("q_star", q_star[c]);
     if (!estimates.reward_estimate.empty()) {
       json.member("reward_estimate", estimates.reward_estimate[c]);
     }
@@ -36,8 +40,10 @@ void write_policy(JsonWriter& json, const Mdp& mdp, const std::vector<Action>& p
   json.rows("policy", mdp.states(), all, [&](std::uint64_t s) {
     const auto state = static_cast<State>(s);
     json.begin_object().member("state", mdp.state_name(state));
-    if (policy[state] == no_action) json.null_member("action");
-    else json.member("action", mdp.action_name(mdp.choice_begin(state) + policy[state]));
+    if (policy[state] == no_action)
+      json.null_member("action");
+    else
+      json.member("action", mdp.action_name(mdp.choice_begin(state) + policy[state]));
     json.end_object();
   });
 }
@@ -71,9 +77,15 @@ void write_evaluation(JsonWriter& json, const Run& run, const RunResult& result)
   json.member("mean", s.mean).member("median", s.median).member("iqm", s.iqm);
   json.member("minimum", s.minimum);
   json.key("lower");
-  if (s.lower) json.value(*s.lower); else json.null();
+  if (s.lower)
+    json.value(*s.lower);
+  else
+    json.null();
   json.key("upper");
-  if (s.upper) json.value(*s.upper); else json.null();
+  if (s.upper)
+    json.value(*s.upper);
+  else
+    json.null();
   json.end_object();
 }
 
@@ -84,7 +96,10 @@ void write_runs(JsonWriter& json, const RunResult& result) {
     json.member("stop", stop_name(seed.stop));
     optional_bool(json, "optimal", seed.optimality ? seed.optimality->optimal : std::nullopt);
     json.key("regret");
-    if (seed.optimality) json.value(seed.optimality->regret); else json.null();
+    if (seed.optimality)
+      json.value(seed.optimality->regret);
+    else
+      json.null();
     json.member("mean", seed.played.mean).end_object();
   }
   json.end_array();
@@ -92,7 +107,8 @@ void write_runs(JsonWriter& json, const RunResult& result) {
 
 }  // namespace
 
-std::string learn_json(const Run& run, const RunResult& result, bool all) {
+std::string learn_json(const Run& run, const RunResult& result, bool all,
+                       const ComingUpdates* coming) {
   const LearnSettings& learn = run.settings().learn;
   const SeedResult& first = result.seeds.front();
   const Mdp* mdp = run.world().mdp.get();
@@ -121,11 +137,20 @@ std::string learn_json(const Run& run, const RunResult& result, bool all) {
   const bool judged = first.optimality && run.entry().sound;
   optional_bool(json, "optimal", judged ? first.optimality->optimal : std::nullopt);
   json.key("proof");
-  if (first.optimality) json.value(first.optimality->proof); else json.null();
+  if (first.optimality)
+    json.value(first.optimality->proof);
+  else
+    json.null();
   json.key("regret");
-  if (judged) json.value(first.optimality->regret); else json.null();
+  if (judged)
+    json.value(first.optimality->regret);
+  else
+    json.null();
   json.key("unreachable");
-  if (first.optimality) json.value(first.optimality->unreachable); else json.null();
+  if (first.optimality)
+    json.value(first.optimality->unreachable);
+  else
+    json.null();
   json.key("impossible");
   if (first.impossible.found && mdp) {
     const Impossible& found = first.impossible;
@@ -138,6 +163,7 @@ std::string learn_json(const Run& run, const RunResult& result, bool all) {
   write_certificate(json, run, result);
   write_evaluation(json, run, result);
   write_runs(json, result);
+  if (coming) write_updates(json, run, *coming, all);
   json.end_object();
   return json.text() + "\n";
 }

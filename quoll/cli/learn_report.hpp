@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "quoll/cli/learn_explain.hpp"
 #include "quoll/experiment/run.hpp"
 #include "quoll/report/table.hpp"
 
@@ -12,8 +13,9 @@ namespace quoll::cli {
 std::string learn_text(const Run& run, const RunResult& result, const TerminalStyle& style,
                        bool all);
 
-/// One JSON object.
-std::string learn_json(const Run& run, const RunResult& result, bool all);
+/// One JSON object, with the updates of --explain if there are any.
+std::string learn_json(const Run& run, const RunResult& result, bool all,
+                       const ComingUpdates* coming = nullptr);
 
 /// Q* per choice, or empty.
 std::vector<double> q_star_all(const Mdp& mdp, const Solution& exact, double discount);

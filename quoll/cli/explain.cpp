@@ -1,0 +1,325 @@
+// quoll explain WORLD: updates and states with their numbers.
+
+#include "quoll/cli/explain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "quoll/base/text.hpp"
+#include "quoll/cli/initial_rewards.hpp"
+#include "quoll/cli/verbs.hpp"
+#include "quoll/experiment/config.hpp"
+#include "quoll/report/explain_text.hpp"
+#include "quoll/report/json.hpp"
+
+namespace quoll::cli {
+namespace {
+
+// The trace of the lecture's slides.
+constexpr std::string_view lecture_trace = "HALL:To-CAVE, CAVE:To-GOAL, HALL:To-CAVE";
+constexpr std::size_t most_revisits = 50;
+
+struct ExplainOptions {
+  WorldOption world;
+  OutputOption output;
+  GivenSettings how;
+  std::string trace, state, run;
+  unsigned steps = 0;
+};
+
+// What is explained: a way to learn, and the updates it made.
+struct Lesson {
+  LearnSettings settings;
+  TabularSetup setup;
+  const LearnerEntry* entry = nullptr;
+  std::string origin;  // where the transitions come from, one sentence
+  bool own = false;    // the updates are a learner's own, not a replay
+  std::vector<Update> updates;
+  std::vector<Update> standard;  // the standard rule beside it; empty for the standard rule itself
+  bool printed() const { return settings.rule == "as-printed"; }
+  bool all_zero() const {
+    return printed() && std::all_of(setup.initial_rewards.begin(), setup.initial_rewards.end(),
+                                    [](double r) { return r == 0.0; });
+  }
+  bool impossible(const Update& update) const {
+    return setup.value_bound > 0.0 &&
+           std::fabs(update.new_value) > setup.value_bound * (1.0 + 1e-5);
+  }
+};
+
+// The rule as printed goes wrong when a pair is visited again: the last move is repeated until its
+// value is above what anybody can earn, or does not move any more.
+void continue_trace(Lesson& lesson, std::vector<Update>& script) {
+  double before = lesson.updates.back().new_value;
+  for (std::size_t more = 1; more <= most_revisits; ++more) {
+    if (lesson.impossible(lesson.updates.back())) return;
+    Update again = script.back();
+    again.step = script.size() + 1;
+    script.push_back(again);
+    lesson.updates = lesson.entry->replay(lesson.setup, script);
+    const double now = lesson.updates.back().new_value;
+    if (more >= 3 && now == before) return;
+    before = now;
+  }
+}
+
+// The first episode of a run, or the steps asked for.
+void own_updates(Lesson& lesson, std::uint64_t steps) {
+  lesson.own = true;
+  std::vector<Update> log(steps > 0 ? steps : 10);
+  const std::unique_ptr<Learner> learner = lesson.entry->make(lesson.setup);
+  log.resize(learner->advance(log.size(), log).logged);
+  if (steps == 0) {
+    const auto end = std::find_if(log.begin(), log.end(), [](const Update& update) {
+      return update.terminated || update.truncated;
+    });
+    if (end != log.end()) log.erase(end + 1, log.end());
+  }
+  lesson.updates = std::move(log);
+  lesson.origin = fmt::format(
+      "The first {} steps of a run, seed {}, actions {}, starts {}:", lesson.updates.size(),
+      lesson.settings.seed, lesson.settings.explore, lesson.settings.start);
+}
+
+Result<Lesson> lesson_of(const ExplainOptions& options, const World& world) {
+  Lesson lesson;
+  lesson.settings.until_stable = false;
+  const Result<void> applied = options.how.apply(settings_of(lesson.settings));
+  if (!applied) return applied.error();
+  const Result<const LearnerEntry*> entry = find_learner(lesson.settings);
+  if (!entry) return entry.error();
+  lesson.entry = *entry;
+  const Result<std::vector<double>> rewards =
+      initial_rewards(lesson.settings.initial_rewards, world);
+  if (!rewards) return rewards.error();
+  const Result<TabularSetup> setup = resolve(lesson.settings, world, *rewards);
+  if (!setup) return setup.error();
+  lesson.setup = *setup;
+
+  const bool lecture = options.trace.empty() && options.steps == 0 && world.name == "adventure" &&
+                       parse_trace(world, lecture_trace);
+  if (!lecture && options.trace.empty()) {
+    own_updates(lesson, options.steps);
+  } else {
+    Result<std::vector<Update>> script =
+        parse_trace(world, lecture ? lecture_trace : options.trace);
+    if (!script) return script.error();
+    lesson.updates = lesson.entry->replay(lesson.setup, *script);
+    lesson.origin = lecture ? "The lecture's trace:" : "The trace given:";
+    if (lecture && lesson.printed()) {
+      continue_trace(lesson, *script);
+      lesson.origin = "The lecture's trace, and on from there with its last move again and again:";
+    }
+  }
+  if (lesson.printed()) {
+    Result<std::vector<Update>> standard = standard_beside(lesson.settings, world, lesson.updates);
+    if (!standard) return standard.error();
+    lesson.standard = std::move(*standard);
+  }
+  return lesson;
+}
+
+std::vector<double> first_table(const Lesson& lesson, const Mdp& mdp) {
+  std::vector<double> q(mdp.choices(), lesson.setup.initial_value);
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (!mdp.terminal(s)) continue;
+    std::fill(q.begin() + static_cast<std::ptrdiff_t>(mdp.choice_begin(s)),
+              q.begin() + static_cast<std::ptrdiff_t>(mdp.choice_end(s)), 0.0);
+  }
+  return q;
+}
+
+std::string heading(const Lesson& lesson, const World& world) {
+  const UpdateWords words = UpdateWords::of(lesson.settings.rule);
+  return fmt::format(
+      "explain {}   {}, rule {}, discount {}, step size {}, every {} = {} at first\n", world.name,
+      lesson.settings.method, lesson.settings.rule, number_text(lesson.setup.discount),
+      lesson.setup.step_size.text(), words.q, number_text(lesson.setup.initial_value));
+}
+
+std::string rule_text(const Lesson& lesson) {
+  if (lesson.settings.rule == "reward-estimate") {
+    return "QE(s,a) := rE(s,a) + discount * max QE(s',.), rE = the mean of the rewards observed "
+           "for "
+           "(s,a)\n";
+  }
+  if (lesson.setup.step_size.one()) return "Q(s,a) := r + discount * max Q(s',.)\n";
+  return "Q(s,a) := Q(s,a) + step size * (r + discount * max Q(s',.) - Q(s,a))\n";
+}
+
+// Why a value above the bound estimates nothing.
+std::string proof_text(const Lesson& lesson, const Mdp& mdp) {
+  const double bound = lesson.setup.value_bound;
+  if (!(bound > 0.0)) return "";
+  const double discount = lesson.setup.discount;
+  std::string text = fmt::format(
+      "The proof that this is no value: a reward is at most {} and the future counts {} per step, "
+      "so\n"
+      "nobody can ever earn more than {} / (1 - {}) = {}.",
+      number_text(bound * (1.0 - discount)), number_text(discount),
+      number_text(bound * (1.0 - discount)), number_text(discount), number_text(bound));
+  const auto found = std::find_if(lesson.updates.begin(), lesson.updates.end(),
+                                  [&](const Update& u) { return lesson.impossible(u); });
+  if (found == lesson.updates.end()) return text + " Nothing above has passed that yet.\n";
+  const auto visits = std::count_if(lesson.updates.begin(), found + 1, [&](const Update& u) {
+    return u.state == found->state && u.action == found->action && u.best_next != 0.0;
+  });
+  return text + fmt::format(" Step {} gives {}: visit {} of {} that sees a future.\n", found->step,
+                            number_text(found->new_value), visits,
+                            pair_text(mdp, found->state, found->action));
+}
+
+std::string zero_text(const Lesson& lesson) {
+  std::string text = fmt::format(
+      "Every rE and every QE is 0, so each update is 0 + {} * 0 = 0, for ever: nothing is ever "
+      "learned.\n",
+      number_text(lesson.setup.discount));
+  const auto earned = std::find_if(lesson.standard.begin(), lesson.standard.end(),
+                                   [](const Update& u) { return u.reward != 0.0; });
+  if (earned != lesson.standard.end()) {
+    text += fmt::format("Step {} earned {}; the rule as printed has not even looked at it.\n",
+                        earned->step, number_text(earned->reward));
+  }
+  return text;
+}
+
+std::string q_text(const Lesson& lesson, const Mdp& mdp, const UpdateTeller& teller, bool all) {
+  QTableView view;
+  view.mdp = &mdp;
+  view.q = teller.q();
+  view.q_is_float = !lesson.printed() && lesson.setup.precision == Precision::single;
+  view.visits = teller.visits();
+  view.q_title = std::string(UpdateWords::of(lesson.settings.rule).q);
+  view.states = all ? 0 : 20;
+  view.rest = "use --all";
+  std::vector<double> reward, standard;
+  if (lesson.printed()) {
+    reward = lesson.setup.initial_rewards;
+    reward.resize(mdp.choices());
+    standard.resize(mdp.choices());
+    for (std::uint64_t c = 0; c < mdp.choices(); ++c) {
+      if (teller.visits()[c] > 0) reward[c] = teller.q()[c];
+    }
+    for (const Update& update : lesson.standard) {
+      standard[mdp.choice_begin(update.state) + update.action] = update.new_value;
+    }
+    view.more = {{"rE", reward}, {"standard Q", standard}};
+    const auto first = first_difference({&mdp, lesson.updates, lesson.standard});
+    if (first) {
+      const Update& update = lesson.updates[*first];
+      view.marked = mdp.choice_begin(update.state) + update.action;
+      view.mark = "<- the first to differ";
+    }
+  }
+  return q_table(view);
+}
+
+std::string lesson_text(const Lesson& lesson, const World& world, bool all) {
+  const Mdp& mdp = *world.mdp;
+  UpdateWords words = UpdateWords::of(lesson.settings.rule);
+  words.chance = lesson.own;
+  UpdateTeller teller(mdp, first_table(lesson, mdp), lesson.setup.discount, words);
+  std::string text = heading(lesson, world), told;
+  for (const Update& update : lesson.updates) told += teller.tell(update);
+  if (!lesson.printed()) {
+    text += rule_text(lesson) + "\n" + lesson.origin + "\n" + told;
+    return text + "\n" + q_text(lesson, mdp, teller, all);
+  }
+  const RuleComparison both{&mdp, lesson.updates, lesson.standard, lesson.setup.discount,
+                            lesson.own};
+  text += "QE(s,a) := rE(s,a) + discount * max QE(s',.); then rE(s,a) := QE(s,a)\n\n";
+  text += as_printed_banner(lesson.all_zero());
+  const auto first = first_difference(both);
+  if (first) text += fmt::format("Watch step {}.\n", lesson.updates[*first].step);
+  text += "\n" + lesson.origin + "\n" + comparison_text(both) + "\n";
+  text += q_text(lesson, mdp, teller, all) + "\n";
+  text += lesson.all_zero() ? zero_text(lesson) : proof_text(lesson, mdp);
+  return text +
+         "The likely intention: rE holds the reward observed at the visit. Read so, it is the "
+         "standard rule\n(see --rule reward-estimate).\n";
+}
+
+std::string lesson_json(const Lesson& lesson, const World& world, bool all) {
+  const Mdp& mdp = *world.mdp;
+  const bool is_float = !lesson.printed() && lesson.setup.precision == Precision::single;
+  UpdateWords words = UpdateWords::of(lesson.settings.rule);
+  words.chance = lesson.own;
+  UpdateTeller teller(mdp, first_table(lesson, mdp), lesson.setup.discount, words);
+  JsonWriter json(JsonStyle::pretty);
+  json.begin_object().member("world", world.name).member("method", lesson.settings.method);
+  json.member("rule", lesson.settings.rule).member("discount", lesson.setup.discount);
+  json.member("step_size", lesson.setup.step_size.text());
+  json.rows("updates", lesson.updates.size(), all, [&](std::uint64_t i) {
+    teller.write(json, lesson.updates[i], is_float,
+                 lesson.printed() ? std::optional(lesson.standard[i].new_value) : std::nullopt);
+  });
+  const auto first = first_difference({&mdp, lesson.updates, lesson.standard});
+  json.key("first_difference");
+  if (lesson.printed() && first)
+    json.value(lesson.updates[*first].step);
+  else
+    json.null();
+  json.key("bound");
+  if (lesson.setup.value_bound > 0.0)
+    json.value(lesson.setup.value_bound);
+  else
+    json.null();
+  json.key("q").begin_array();
+  for (State s = 0; s < mdp.states() && (all || mdp.choices() <= json_complete_rows); ++s) {
+    for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
+      json.begin_object().member("state", mdp.state_name(s));
+      json.member("action", mdp.action_name(c)).key("q").number(teller.q()[c], is_float);
+      json.member("visits", teller.visits()[c]).end_object();
+    }
+  }
+  json.end_array().end_object();
+  return json.text() + "\n";
+}
+
+Exit explain(const ExplainOptions& options) {
+  const Result<World> world = options.world.open();
+  if (!world) return fail(world.error());
+  if (!world->mdp) {
+    return fail({"explain", 0, 0, "the model of " + world->name + " is not known", ""});
+  }
+  if (!options.state.empty() && !options.trace.empty()) {
+    return fail({"explain", 0, 0, "either --state or --trace, not both", ""});
+  }
+  if (!options.run.empty() && options.state.empty()) {
+    return fail({"--run", 0, 0, "needs --state STATE: whose learned values?", ""});
+  }
+  if (!options.state.empty()) {
+    LearnSettings settings;
+    const Result<void> applied = options.how.apply(settings_of(settings));
+    if (!applied) return fail(applied.error());
+    return explain_state(options.world, *world, {options.state, options.run, settings.discount},
+                         options.output);
+  }
+  const Result<Lesson> lesson = lesson_of(options, *world);
+  if (!lesson) return fail(lesson.error());
+  const std::string text = options.output.json ? lesson_json(*lesson, *world, options.output.all)
+                                               : lesson_text(*lesson, *world, options.output.all);
+  return print(text) ? done : user_error;
+}
+
+}  // namespace
+
+void declare_explain(Options& options) {
+  auto given = std::make_shared<ExplainOptions>();
+  LearnSettings defaults;
+  given->world.declare(options);
+  options.option("--trace", &given->trace, "STATE:MOVE,...",
+                 "the transitions to explain; for the adventure the lecture's");
+  options.option("--steps", &given->steps, "N",
+                 "the first N steps of a run; without it the first episode, at most 10 steps");
+  options.option("--state", &given->state, "STATE", "where the values of one state come from");
+  options.option("--run", &given->run, "FILE",
+                 "with --state: the values of a saved run beside them");
+  given->how.declare(options, settings_of(defaults));
+  given->output.declare(options, "");
+  options.run([given] { return explain(*given); });
+}
+
+}  // namespace quoll::cli

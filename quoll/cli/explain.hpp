@@ -1,0 +1,44 @@
+#pragma once
+// What `explain` and `learn --explain` share: traces as people write them, and the standard rule
+// beside another one.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "quoll/cli/common.hpp"
+#include "quoll/learn/learner.hpp"
+
+namespace quoll::cli {
+
+/// The state of a name or an index; the Error names the nearest.
+Result<State> parse_state(const World& world, std::string_view word, std::string_view place);
+
+/// "HALL:To-CAVE, CAVE:To-GOAL": the transitions of a trace, names or indices. Where a move has
+/// several outcomes, a third word chooses one: "A:go:B". Steps count from 1. Needs a model.
+Result<std::vector<Update>> parse_trace(const World& world, std::string_view text);
+
+/// The same transitions with the rewards the world gives: what a rule that goes by its own rE
+/// hides.
+std::vector<Update> observed(const Mdp& mdp, std::span<const Update> updates);
+
+/// The standard rule with step size 1, from Q = 0, on the same transitions.
+Result<std::vector<Update>> standard_beside(const LearnSettings& settings, const World& world,
+                                            std::span<const Update> updates);
+
+/// The banner of the rule as-printed.
+std::string as_printed_banner(bool all_zero);
+
+/// Where the values of one state come from (explain --state).
+struct StateQuestion {
+  std::string state;      ///< name or index
+  std::string run;        ///< file of a saved run, or empty
+  double discount = 0.0;  ///< 0 = the world's own, or the run's
+};
+Exit explain_state(const WorldOption& option, const World& world, const StateQuestion& question,
+                   const OutputOption& output);
+
+}  // namespace quoll::cli

@@ -1,0 +1,234 @@
+// quoll show WORLD [graph|map|q|policy|curve]: in the terminal, or as a picture with -o FILE.svg.
+
+#include "quoll/cli/show.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "quoll/base/file.hpp"
+#include "quoll/base/text.hpp"
+#include "quoll/cli/verbs.hpp"
+#include "quoll/report/curve_svg.hpp"
+#include "quoll/report/graph_svg.hpp"
+#include "quoll/report/grid_svg.hpp"
+
+namespace quoll::cli {
+namespace {
+
+constexpr std::string_view kinds[] = {"graph", "map", "q", "policy", "curve"};
+
+struct ShowOptions {
+  WorldOption world;
+  std::string kind, run, file, discount;
+  bool all = false;
+};
+
+Result<double> discount_of(const std::string& text, double otherwise) {
+  if (text.empty()) return otherwise;
+  const auto number = parse_number(text);
+  if (number && *number > 0.0 && *number <= 1.0) return *number;
+  return Error{"--discount", 0, 0, "a number in (0, 1] expected, not '" + text + "'", ""};
+}
+
+// What is drawn when nobody says.
+std::string kind_for(const Mdp& mdp) {
+  if (mdp.layout()) return "map";
+  return mdp.states() <= graph_states ? "graph" : "q";
+}
+
+GridView grid_view(const Exhibit& exhibit, bool heat) {
+  GridView view;
+  view.mdp = exhibit.mdp;
+  if (heat) view.value = exhibit.value;
+  view.policy = exhibit.policy;
+  view.optimal = exhibit.best;
+  view.title = exhibit.title;
+  return view;
+}
+
+std::string q_text(const Exhibit& exhibit, bool all) {
+  QTableView view;
+  view.mdp = exhibit.mdp;
+  view.q = exhibit.q;
+  view.q_is_float = exhibit.q_is_float;
+  view.q_star = exhibit.q_star;
+  view.visits = exhibit.visits;
+  view.policy = exhibit.policy;
+  view.q_title = exhibit.learned ? "Q" : "Q*";
+  view.states = all ? 0 : 20;
+  view.rest = "use --all";
+  return q_table(view);
+}
+
+// Every move, one line per state: "HALL  To-CAVE -> CAVE, To-POOL -> POOL".
+std::string moves_text(const Mdp& mdp, bool all) {
+  TextTable table({{"state"}, {"moves"}});
+  const std::uint64_t shown = all ? mdp.states() : std::min<std::uint64_t>(mdp.states(), 20);
+  for (State s = 0; s < shown; ++s) {
+    std::string moves = mdp.terminal(s) ? "(end)" : "";
+    for (std::uint64_t c = mdp.choice_begin(s); !mdp.terminal(s) && c < mdp.choice_end(s); ++c) {
+      moves += (moves.empty() ? "" : ", ") + mdp.action_name(c) + " ->";
+      for (std::uint64_t o = mdp.outcome_begin(c); o < mdp.outcome_end(c); ++o) {
+        moves += " " + mdp.state_name(mdp.next(o));
+        if (mdp.probability(o) < 1.0)
+          moves += fmt::format(" ({})", number_text(mdp.probability(o)));
+        if (mdp.reward(c, o) != 0.0) {
+          moves += fmt::format(" [reward {}]", number_text(mdp.reward(c, o)));
+        }
+      }
+    }
+    table.row({mdp.state_name(s), std::move(moves)});
+  }
+  std::string text = table.text();
+  if (shown < mdp.states()) {
+    text += fmt::format("... and {} more states (use --all)\n", grouped(mdp.states() - shown));
+  }
+  return text;
+}
+
+// The state's value and its best moves.
+std::string policy_table(const Exhibit& exhibit, bool all) {
+  ValueTableView view;
+  view.mdp = exhibit.mdp;
+  view.lower = exhibit.value;
+  view.upper = exhibit.value;
+  view.policy = exhibit.policy;
+  view.optimal = exhibit.best;
+  view.states = all ? 0 : 20;
+  view.rest = "use --all";
+  return value_table(view);
+}
+
+Result<std::string> terminal_text(const Exhibit& exhibit, const std::string& kind,
+                                  const std::string& world, bool all) {
+  const TerminalStyle style = stdout_style();
+  std::string text = exhibit.title + "\n\n";
+  if (kind == "curve") {
+    for (const Curve& curve : exhibit.curves) text += curve_text(curve, style);
+    return text;
+  }
+  if (kind == "map" || (kind == "policy" && exhibit.mdp->layout())) {
+    const GridView view = grid_view(exhibit, true);
+    const Result<std::string> arrows = grid_policy_text(view, style);
+    if (!arrows || kind == "policy") return arrows;
+    const Result<std::string> heat = grid_heat_text(view, style);
+    if (!heat) return heat;
+    return *arrows + "\n" + *heat;
+  }
+  if (kind == "policy") return text + policy_table(exhibit, all);
+  text += q_text(exhibit, all);
+  if (kind == "q") return text;
+  if (exhibit.mdp->states() > graph_states) {
+    GraphView view;
+    view.mdp = exhibit.mdp;
+    view.world = world;
+    return graph_svg(view).error();
+  }
+  return text + "\n" + moves_text(*exhibit.mdp, true) +
+         fmt::format("\nThe picture: quoll show {} -o {}.svg\n", world, exhibit.name);
+}
+
+Result<Picture> picture(const Exhibit& exhibit, const std::string& kind, const std::string& world) {
+  if (kind == "curve") return curve_svg({exhibit.curves, exhibit.title});
+  if (kind == "q") {
+    return Error{"-o", 0, 0,
+                 "a Q table is a text; for a picture: quoll show " + world +
+                     (exhibit.mdp->layout() ? " map" : " graph") + " -o FILE.svg",
+                 ""};
+  }
+  if (kind == "map" || (kind == "policy" && exhibit.mdp->layout())) {
+    return grid_svg(grid_view(exhibit, kind == "map"));
+  }
+  GraphView view;
+  view.mdp = exhibit.mdp;
+  view.value = exhibit.value;
+  view.q = exhibit.q;
+  view.optimal = exhibit.best;
+  view.title = exhibit.title;
+  view.world = world;
+  return graph_svg(view);
+}
+
+Result<std::string> checked_kind(const ShowOptions& options, const World& world) {
+  if (options.kind.empty()) {
+    if (world.mdp) return kind_for(*world.mdp);
+    return Error{"show", 0, 0, "the model of " + world.name + " is not known", ""};
+  }
+  if (std::find(std::begin(kinds), std::end(kinds), options.kind) == std::end(kinds)) {
+    return Error{"show", 0, 0,
+                 "graph, map, q, policy or curve expected, not '" + options.kind + "'",
+                 nearest(options.kind, std::span<const std::string_view>(kinds))};
+  }
+  if (options.kind == "curve" && options.run.empty()) {
+    return Error{"show", 0, 0,
+                 "a curve needs a run: quoll learn " + options.world.name +
+                     " --save FILE, then quoll show " + options.world.name + " curve --run FILE",
+                 ""};
+  }
+  return options.kind;
+}
+
+Result<void> checked_file(const std::string& file) {
+  if (file.empty() || (file.size() > 4 && file.substr(file.size() - 4) == ".svg")) return {};
+  return Error{"-o", 0, 0, "a file that ends in .svg expected, not '" + file + "'", ""};
+}
+
+Exit present(const Exhibit& exhibit, const ShowOptions& options, const std::string& kind) {
+  if (options.file.empty()) {
+    const Result<std::string> text = terminal_text(exhibit, kind, options.world.name, options.all);
+    if (!text) return fail(text.error());
+    return print(*text) ? done : user_error;
+  }
+  const Result<Picture> drawn = picture(exhibit, kind, options.world.name);
+  if (!drawn) return fail(drawn.error());
+  const Result<void> written = write_file(options.file, drawn->svg);
+  return written ? done : fail(written.error());
+}
+
+Exit show(const ShowOptions& options) {
+  const Result<void> file = checked_file(options.file);
+  if (!file) return fail(file.error());
+  const Result<World> world = options.world.open();
+  if (!world) return fail(world.error());
+  const Result<std::string> kind = checked_kind(options, *world);
+  if (!kind) return fail(kind.error());
+  if (!options.run.empty()) {
+    const Result<Run> run = Run::load(options.run);
+    if (!run) return fail(run.error());
+    if (run->source().name != options.world.name) {
+      return fail({"--run", 0, 0,
+                   "the saved run learns " + run->source().name + ", not " + options.world.name,
+                   ""});
+    }
+    return present(learned_exhibit(*run), options, *kind);
+  }
+  if (!world->mdp) {
+    return fail({"show", 0, 0, "the model of " + world->name + " is not known: give --run", ""});
+  }
+  const Result<double> discount = discount_of(options.discount, world->discount);
+  if (!discount) return fail(discount.error());
+  const Result<Exhibit> exhibit = exact_exhibit(*world, *discount);
+  if (!exhibit) return fail(exhibit.error());
+  return present(*exhibit, options, *kind);
+}
+
+}  // namespace
+
+void declare_show(Options& options) {
+  auto given = std::make_shared<ShowOptions>();
+  given->world.declare(options);
+  options.word("kind", given->kind,
+               "graph, map, q, policy or curve; without it a map for grids, a graph for up to 60 "
+               "states, else q",
+               false);
+  options.option("--run", &given->run, "FILE",
+                 "the values of a saved run instead of the exact ones");
+  options.option("--discount,--gamma", &given->discount, "number in (0, 1]",
+                 "discount of the exact values; without it the world's own");
+  options.option("-o,--output", &given->file, "FILE.svg", "write a picture instead");
+  options.flag("--all", &given->all, "complete tables, however long");
+  options.run([given] { return show(*given); });
+}
+
+}  // namespace quoll::cli

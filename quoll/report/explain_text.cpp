@@ -1,0 +1,183 @@
+#include "quoll/report/explain_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "quoll/base/text.hpp"
+#include "quoll/report/table.hpp"
+
+namespace quoll {
+namespace {
+
+constexpr Action most_listed = 8;  // moves of the next state that a formula lists
+
+std::string action_name(const Mdp& mdp, const Update& update) {
+  return mdp.action_name(mdp.choice_begin(update.state) + update.action);
+}
+
+bool same(double a, double b) {
+  return a == b || std::fabs(a - b) <= 1e-6 * std::max(std::fabs(a), std::fabs(b));
+}
+
+// "80 + 0.8 * 100 = 160": the sum of a rule that takes whole steps.
+std::string sum_text(const Update& update, double discount) {
+  return fmt::format("{} + {} * {} = {}", number_text(update.reward), number_text(discount),
+                     factor_text(update.best_next), number_text(update.new_value));
+}
+
+std::string sum_without_result(const Update& update, double discount) {
+  return fmt::format("{} + {} * {}", number_text(update.reward), number_text(discount),
+                     factor_text(update.best_next));
+}
+
+}  // namespace
+
+std::string factor_text(double value) {
+  const std::string text = number_text(value);
+  return text.front() == '-' ? "(" + text + ")" : text;
+}
+
+std::string pair_text(const Mdp& mdp, State state, Action action) {
+  return "(" + mdp.state_name(state) + ", " + mdp.action_name(mdp.choice_begin(state) + action) +
+         ")";
+}
+
+UpdateWords UpdateWords::of(std::string_view rule) {
+  if (rule == "as-printed") return {"QE", Reward::stored, false};
+  if (rule == "reward-estimate") return {"QE", Reward::mean, false};
+  return {};
+}
+
+UpdateTeller::UpdateTeller(const Mdp& mdp, std::vector<double> q, double discount,
+                           UpdateWords words, std::vector<std::uint32_t> visits)
+    : mdp_(mdp), q_(std::move(q)), visits_(std::move(visits)), discount_(discount), words_(words) {
+  visits_.resize(mdp.choices());
+}
+
+// "max{To-GOAL 100, To-HALL 0}", or 0 after an end.
+std::string UpdateTeller::best_text(const Update& update) const {
+  if (update.terminated) return "0";
+  const std::uint64_t first = mdp_.choice_begin(update.next), end = mdp_.choice_end(update.next);
+  std::uint64_t best = first;
+  std::string list;
+  for (std::uint64_t c = first; c < end; ++c) {
+    if (q_[c] > q_[best]) best = c;
+    if (end - first > most_listed) continue;
+    list += fmt::format("{}{} {}", c > first ? ", " : "", mdp_.action_name(c), number_text(q_[c]));
+  }
+  if (end - first <= most_listed) return "max{" + list + "}";
+  return fmt::format("max{{{} {}, {} others}}", mdp_.action_name(best), number_text(q_[best]),
+                     end - first - 1);
+}
+
+std::string UpdateTeller::formula(const Update& update) const {
+  return fmt::format("{} + {} * {} = {}", number_text(update.reward), number_text(discount_),
+                     best_text(update), number_text(update.target));
+}
+
+std::string UpdateTeller::tell(const Update& update) {
+  const std::string move = action_name(mdp_, update), next = mdp_.state_name(update.next);
+  const std::string name = fmt::format("{}({},{})", words_.q, mdp_.state_name(update.state), move);
+  std::string text = fmt::format("step {:<3} at {}, take {} -> {}", update.step,
+                                 mdp_.state_name(update.state), move, next);
+  using Reward = UpdateWords::Reward;
+  if (words_.reward == Reward::observed) text += ", reward " + number_text(update.reward);
+  if (words_.chance) text += update.explored ? "   (by chance)" : "   (the best so far)";
+  text += "\n         ";
+  if (update.step_size == 1.0) {
+    text += name + " := " + (words_.reward == Reward::observed ? "" : "rE ") + formula(update);
+  } else {
+    text += "target = " + formula(update) + "\n         " +
+            fmt::format("{} := {} + {} * ({} - {}) = {}", name, number_text(update.old_value),
+                        number_text(update.step_size), number_text(update.target),
+                        factor_text(update.old_value), number_text(update.new_value));
+  }
+  text += update.new_value == update.old_value
+              ? "   unchanged"
+              : fmt::format("   was {}", number_text(update.old_value));
+  const std::uint64_t pair = mdp_.choice_begin(update.state) + update.action;
+  if (words_.reward == Reward::mean) {
+    text += fmt::format("   [rE: mean of {} observed reward{}]", visits_[pair] + 1,
+                        visits_[pair] == 0 ? "" : "s");
+  }
+  if (update.terminated) text += "   [" + next + " is an end: nothing follows]";
+  if (update.truncated && !update.terminated) {
+    text += "   [the episode is cut off here; the value of " + next + " still counts]";
+  }
+  count(update);
+  return text + "\n";
+}
+
+void UpdateTeller::count(const Update& update) {
+  const std::uint64_t pair = mdp_.choice_begin(update.state) + update.action;
+  q_[pair] = update.new_value;
+  ++visits_[pair];
+}
+
+void UpdateTeller::write(JsonWriter& json, const Update& update, bool is_float,
+                         std::optional<double> standard) {
+  json.begin_object().member("step", update.step);
+  json.member("state", mdp_.state_name(update.state)).member("action", action_name(mdp_, update));
+  json.key("reward").number(update.reward, is_float);
+  json.member("next", mdp_.state_name(update.next));
+  json.member("terminated", update.terminated).member("truncated", update.truncated);
+  if (words_.chance) json.member("explored", update.explored);
+  json.key("old").number(update.old_value, is_float);
+  json.key("next_q").begin_array();
+  if (!update.terminated) {
+    for (std::uint64_t c = mdp_.choice_begin(update.next); c < mdp_.choice_end(update.next); ++c) {
+      json.begin_object().member("action", mdp_.action_name(c));
+      json.key("q").number(q_[c], is_float).end_object();
+    }
+  }
+  json.end_array();
+  json.key("best_next").number(update.best_next, is_float);
+  json.member("target", update.target).member("step_size", update.step_size);
+  json.key("new").number(update.new_value, is_float);
+  if (standard) json.key("standard").number(*standard, true);
+  json.end_object();
+  count(update);
+}
+
+std::optional<std::size_t> first_difference(const RuleComparison& view) {
+  for (std::size_t i = 0; i < std::min(view.printed.size(), view.standard.size()); ++i) {
+    if (!same(view.printed[i].new_value, view.standard[i].new_value)) return i;
+  }
+  return {};
+}
+
+std::string comparison_text(const RuleComparison& view) {
+  const Mdp& mdp = *view.mdp;
+  const std::string discount = number_text(view.discount);
+  using Align = TextTable::Align;
+  TextTable table({{"step", Align::right},
+                   {"move"},
+                   {"as printed: rE + " + discount + " * max QE"},
+                   {"|"},
+                   {"standard: r + " + discount + " * max Q"},
+                   {""}});
+  const auto first = first_difference(view);
+  for (std::size_t i = 0; i < view.printed.size(); ++i) {
+    const Update& printed = view.printed[i];
+    std::string note;
+    if (first == i) {
+      note = fmt::format("<- first difference: {} against {}",
+                         sum_without_result(printed, view.discount),
+                         sum_without_result(view.standard[i], view.discount));
+    } else if (view.episodes && printed.terminated) {
+      note = "end";
+    } else if (view.episodes && printed.truncated) {
+      note = "cut off";
+    }
+    table.row({std::to_string(printed.step),
+               mdp.state_name(printed.state) + " " + action_name(mdp, printed),
+               sum_text(printed, view.discount), "|", sum_text(view.standard[i], view.discount),
+               std::move(note)});
+  }
+  return table.text();
+}
+
+}  // namespace quoll
