@@ -1,6 +1,7 @@
 #pragma once
-// Choosing actions while learning: a value with a switch inside. Every choice consumes the same draws
-// (coin, action, tie), used or not, so that changing the exploration disturbs nobody else's dice.
+// Choosing actions while learning: a value with a switch inside. Every choice consumes the same
+// draws (coin, action, tie), used or not, so that changing the exploration disturbs nobody else's
+// dice.
 
 #include <cstdint>
 #include <string_view>
@@ -41,13 +42,42 @@ struct Chosen {
   bool explored;
 };
 
+/// The choices that a coin decides, for the loop that has nothing else to ask: uniform is epsilon
+/// 1, greedy epsilon 0. Same draws, same choices as Exploration.
+template <bool first_tie>
+struct CoinExploration {
+  std::uint64_t threshold;  ///< explore when the 32-bit coin is below
+
+  template <class Rows, class Value>
+  Chosen choose(const Rows& rows, const Value* values, const std::uint32_t*, State state,
+                const RowView<Value>& row, const ChoiceDraws& draws, std::uint64_t) const {
+    const bool explore = draws.coin() < threshold;
+    const Action greedy = first_tie ? rows.first(values, state, row)
+                                    : rows.pick(values, state, row, draws.tie());
+    return {explore ? scale(draws.action(), row.legal) : greedy, explore};
+  }
+};
+
 struct Exploration {
   enum class Kind : std::uint8_t { uniform, greedy, epsilon_greedy, softmax, ucb };
   Kind kind = Kind::uniform;
-  bool first_tie = false;      ///< ties to the lowest index instead of uniformly
-  Schedule epsilon;            ///< epsilon-greedy
-  Schedule temperature;        ///< softmax, in units of value
-  double ucb_scale = 1.0;      ///< ucb: constant times the span of rewards
+  bool first_tie = false;  ///< ties to the lowest index instead of uniformly
+  Schedule epsilon;        ///< epsilon-greedy
+  Schedule temperature;    ///< softmax, in units of value
+  double ucb_scale = 1.0;  ///< ucb: constant times the span of rewards
+
+  /// True when CoinExploration with coin_threshold() makes the same choices.
+  bool is_coin() const {
+    return kind == Kind::uniform || kind == Kind::greedy ||
+           (kind == Kind::epsilon_greedy && epsilon.constant());
+  }
+  std::uint64_t coin_threshold() const {
+    if (kind == Kind::uniform) return std::uint64_t{1} << 32;
+    if (kind == Kind::greedy) return 0;
+    const double scaled = epsilon.from * 0x1p32;
+    const auto whole = static_cast<std::uint64_t>(scaled);
+    return whole + (static_cast<double>(whole) < scaled);
+  }
 
   /// Chooses for `state`, whose row was seen as `row`. `visits` = visits per pair, same indices.
   template <class Rows, class Value>
@@ -97,7 +127,8 @@ struct Exploration {
     return {a, q[a] != row.best};
   }
 
-  // UCB1 (Auer, Cesa-Bianchi, Fischer 2002) on the row, as UCT (Kocsis, Szepesvari 2006) does in a tree.
+  // UCB1 (Auer, Cesa-Bianchi, Fischer 2002) on the row, as UCT (Kocsis, Szepesvari 2006) does in a
+  // tree.
   template <class Rows, class Value>
   Chosen ucb(const Rows& rows, const Value* values, const std::uint32_t* visits, State state,
              const RowView<Value>& row, const ChoiceDraws& draws) const {

@@ -1,10 +1,9 @@
 #pragma once
-// How the values of one state's actions lie in memory, and how the best of them is found. Two layouts:
-// FourRows, rows padded to four so that a row is one 128-bit load, and RaggedRows, exactly one value
-// per pair. Padding holds -infinity (never a maximiser), rows of ends hold 0. Both give the same
-// choices for the same draws.
+// How the values of one state's actions lie in memory, and how the best of them is found. Two
+// layouts: FourRows, rows padded to four so that a row is one 128-bit load, and RaggedRows, exactly
+// one value per pair. Padding holds -infinity (never a maximiser), rows of ends hold 0. Both give
+// the same choices for the same draws.
 
-#include <bit>
 #include <cstdint>
 #include <limits>
 
@@ -31,6 +30,8 @@ inline constexpr std::uint8_t nth_bit[16][4] = {
     {0, 0, 0, 0}, {0, 0, 0, 0}, {1, 1, 1, 1}, {0, 1, 1, 1}, {2, 2, 2, 2}, {0, 2, 2, 2},
     {1, 2, 2, 2}, {0, 1, 2, 2}, {3, 3, 3, 3}, {0, 3, 3, 3}, {1, 3, 3, 3}, {0, 1, 3, 3},
     {2, 3, 3, 3}, {0, 2, 3, 3}, {1, 2, 3, 3}, {0, 1, 2, 3}};
+/// Number of set bits of a 4-bit mask: a table, since the base instruction set has no popcount.
+inline constexpr std::uint8_t set_bits[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
 }  // namespace detail
 
 template <class Value>
@@ -47,9 +48,9 @@ struct FourRows {
       const __m128 swapped = _mm_max_ps(row, _mm_shuffle_ps(row, row, _MM_SHUFFLE(1, 0, 3, 2)));
       const __m128 best = _mm_max_ps(swapped, _mm_shuffle_ps(swapped, swapped, 0xb1));
       const auto ties = static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmpeq_ps(row, best)));
-      const auto closed = static_cast<std::uint32_t>(
-          _mm_movemask_ps(_mm_cmpeq_ps(row, _mm_set1_ps(padding))));
-      return {_mm_cvtss_f32(best), ties, static_cast<std::uint32_t>(4 - std::popcount(closed))};
+      const auto closed =
+          static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmpeq_ps(row, _mm_set1_ps(padding))));
+      return {_mm_cvtss_f32(best), ties, 4u - detail::set_bits[closed]};
     }
 #endif
     const Value left = q[0] < q[1] ? q[1] : q[0], right = q[2] < q[3] ? q[3] : q[2];
@@ -63,9 +64,7 @@ struct FourRows {
   }
 
   /// How many attain the maximum.
-  std::uint32_t count(const RowView<Value>& row) const {
-    return static_cast<std::uint32_t>(std::popcount(row.ties));
-  }
+  std::uint32_t count(const RowView<Value>& row) const { return detail::set_bits[row.ties]; }
   /// The maximiser that the 32 random bits select, each with equal probability.
   Action pick(const Value*, State, const RowView<Value>& row, std::uint32_t bits) const {
     return detail::nth_bit[row.ties][scale(bits, count(row))];

@@ -9,8 +9,8 @@
 
 namespace quoll {
 
-/// value(step) = from + (to - from) * min(1, step / steps). Steps are absolute steps of the run, never
-/// fractions of a limit, so that a longer run begins like a shorter one.
+/// value(step) = from + (to - from) * min(1, step / steps). Steps are absolute steps of the run,
+/// never fractions of a limit, so that a longer run begins like a shorter one.
 struct Schedule {
   double from = 0.0;
   double to = 0.0;
@@ -31,8 +31,8 @@ struct Schedule {
   }
 };
 
-/// "0.1", or "1:0.05:10000" = from 1 to 0.05 over the first 10000 steps. `low` and `high` bound both
-/// values; `place` is the flag or key for the message.
+/// "0.1", or "1:0.05:10000" = from 1 to 0.05 over the first 10000 steps. `low` and `high` bound
+/// both values; `place` is the flag or key for the message.
 Result<Schedule> parse_schedule(std::string_view text, double low, double high,
                                 std::string_view place);
 

@@ -28,8 +28,8 @@ class StartStates {
   /// Over the states that have actions and are not ends.
   static StartStates uniform(const Mdp& mdp);
   static StartStates fixed(State state);
-  /// The first state, in circular order from the last one chosen, with no more visits than the least
-  /// visited; constant time on average (see least_visited()).
+  /// The first state, in circular order from the last one chosen, with no more visits than the
+  /// least visited; constant time on average (see least_visited()).
   static StartStates least_visited(const Mdp& mdp);
 
   Kind kind() const { return kind_; }
@@ -56,14 +56,19 @@ class StartStates {
     archive("cursor", cursor_);
     archive("level", level_);
     archive("next_level", next_level_);
+    if (cursor_ > states_.size()) {
+      cursor_ = 0;
+      archive.fail("a start beyond the states");
+    }
   }
 
  private:
   State sample(std::uint64_t bits) const;
 
-  // The cursor goes round the states; a state with at most `level_` visits is taken. A round without
-  // one raises the level to the smallest count seen in it. Each round costs one look per state and each
-  // raise means every state was visited once more, so the cost per episode is constant on average.
+  // The cursor goes round the states; a state with at most `level_` visits is taken. A round
+  // without one raises the level to the smallest count seen in it. Each round costs one look per
+  // state and each raise means every state was visited once more, so the cost per episode is
+  // constant on average.
   template <class Visits>
   State least_visited(const Visits& visits) {
     for (;;) {

@@ -15,8 +15,8 @@ namespace quoll::cli {
 std::vector<double> q_star_all(const Mdp& mdp, const Solution& exact, double discount) {
   std::vector<double> middle(mdp.states());
   for (State s = 0; s < mdp.states(); ++s) {
-    middle[s] = exact.lower[s] == exact.upper[s] ? exact.lower[s]
-                                                 : 0.5 * (exact.lower[s] + exact.upper[s]);
+    middle[s] =
+        exact.lower[s] == exact.upper[s] ? exact.lower[s] : 0.5 * (exact.lower[s] + exact.upper[s]);
   }
   std::vector<double> q(mdp.choices());
   for (State s = 0; s < mdp.states(); ++s) {
@@ -36,8 +36,7 @@ std::string heading(const Run& run) {
                                  learn.method, learn.rule, shortest(run.discount()));
   if (setup) {
     text += fmt::format(", step size {}, actions {}, starts {}, episodes of at most {} steps",
-                        setup->step_size.text(), learn.explore, learn.start,
-                        setup->episode_steps);
+                        setup->step_size.text(), learn.explore, learn.start, setup->episode_steps);
   }
   if (run.settings().seeds > 1) {
     text += fmt::format(", seeds {} to {}", learn.seed, learn.seed + run.settings().seeds - 1);
@@ -59,8 +58,7 @@ std::string stop_sentence(const Run& run, const SeedResult& seed) {
                           run.world().mdp;
       if (!run.entry().sound) return "stable" + after + ": the printed rule changes nothing more";
       return "stable" + after +
-             (proved ? ": proved, Q is the fixed point of its update"
-                     : ": stable, not proved") +
+             (proved ? ": proved, Q is the fixed point of its update" : ": stable, not proved") +
              (run.world().mdp ? "" : "; over the states met so far");
     }
     case Stop::diverged:
@@ -149,15 +147,16 @@ std::string seeds_table(const RunResult& result) {
     const bool judged = seed.optimality.has_value();
     const bool decided = judged && seed.optimality->optimal;
     table.row({std::to_string(seed.seed), grouped(seed.steps), std::string(stop_name(seed.stop)),
-               !decided ? "?" : *seed.optimality->optimal ? "yes" : "no",
+               !decided                    ? "?"
+               : *seed.optimality->optimal ? "yes"
+                                           : "no",
                judged ? number_text(seed.optimality->regret) : "", number_text(seed.played.mean),
                fmt::format("{:.0f} %", 100 * seed.played.ended)});
   }
   const Statistics& s = result.statistics;
   std::string text = table.text();
-  text += fmt::format("mean {}, median {}, interquartile mean {}, smallest {}",
-                      number_text(s.mean), number_text(s.median), number_text(s.iqm),
-                      number_text(s.minimum));
+  text += fmt::format("mean {}, median {}, interquartile mean {}, smallest {}", number_text(s.mean),
+                      number_text(s.median), number_text(s.iqm), number_text(s.minimum));
   if (s.lower) {
     text += fmt::format(", 95 % interval of the mean [{}, {}]", number_text(*s.lower),
                         number_text(*s.upper));
@@ -200,7 +199,8 @@ std::string learn_text(const Run& run, const RunResult& result, const TerminalSt
     if (mdp->layout() && mdp->states() > 20) {
       std::vector<double> value(mdp->states(), 0.0);
       for (State s = 0; s < mdp->states(); ++s) {
-        if (first.policy[s] != no_action) value[s] = estimates.q[mdp->choice_begin(s) + first.policy[s]];
+        if (first.policy[s] != no_action)
+          value[s] = estimates.q[mdp->choice_begin(s) + first.policy[s]];
       }
       const GridView view{mdp, value, first.policy, {}, "learned policy"};
       if (const auto grid = grid_policy_text(view, style)) text += *grid + "\n";

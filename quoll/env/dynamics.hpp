@@ -1,6 +1,7 @@
 #pragma once
-// A plain struct with start and step becomes a world. The struct says what it offers (spaces), where an
-// episode begins (start) and what an action does (step); batch() lifts it to an Environment.
+// A plain struct with start and step becomes a world. The struct says what it offers (spaces),
+// where an episode begins (start) and what an action does (step); batch() lifts it to an
+// Environment.
 //
 //   struct Corridor {
 //     using Position = int;                                            // any copyable type
@@ -10,10 +11,13 @@
 //     quoll::State number(const Position& at) const { return at; }    // if states > 0
 //     void observe(const Position& at, std::span<float> x) const;     // if observation > 0
 //     Position position(quoll::State s) const;                        // optional: settable
+//     quoll::Action actions(quoll::State s) const;                    // optional: fewer than
+//     spaces
 //   };
 
 #include <concepts>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <string>
@@ -46,12 +50,17 @@ concept HasNumber = requires(const D d, const typename D::Position& at) {
   { d.number(at) } -> std::convertible_to<State>;
 };
 template <class D>
-concept HasObserve = requires(const D d, const typename D::Position& at, std::span<float> x) {
-  d.observe(at, x);
-};
+concept HasObserve =
+    requires(const D d, const typename D::Position& at, std::span<float> x) { d.observe(at, x); };
 template <class D>
-concept Dynamics = HasPosition<D> && HasSpaces<D> && HasStart<D> && HasStep<D> &&
-                   (HasNumber<D> || HasObserve<D>);
+concept Dynamics =
+    HasPosition<D> && HasSpaces<D> && HasStart<D> && HasStep<D> && (HasNumber<D> || HasObserve<D>);
+
+/// Worlds whose states differ in their number of actions.
+template <class D>
+concept HasActions = requires(const D d, State s) {
+  { d.actions(s) } -> std::convertible_to<Action>;
+};
 
 /// Worlds that can be put into any numbered state.
 template <class D>
@@ -73,8 +82,26 @@ void persist_position(Archive& archive, Position& position) {
                   "Position needs persist(Archive&), or must be trivially copyable");
     std::string bytes(reinterpret_cast<const char*>(&position), sizeof position);
     archive("position", bytes);
-    if (bytes.size() == sizeof position) std::memcpy(&position, bytes.data(), sizeof position);
+    if (bytes.size() != sizeof position) return archive.fail("a position of another world");
+    std::memcpy(&position, bytes.data(), sizeof position);
   }
+}
+
+/// Whether nothing is missing; each assertion names one member.
+template <class D>
+constexpr bool complete() {
+  static_assert(HasPosition<D>, "a world needs a copyable type: using Position = ...;");
+  if constexpr (HasPosition<D>) {
+    static_assert(HasSpaces<D>, "a world needs: quoll::Spaces spaces() const");
+    static_assert(HasStart<D>, "a world needs: Position start(auto& dice) const");
+    static_assert(
+        HasStep<D>,
+        "a world needs: quoll::Feedback step(Position&, quoll::Action, auto& dice) const");
+    static_assert(HasNumber<D> || HasObserve<D>,
+                  "a world needs: quoll::State number(const Position&) const, or "
+                  "void observe(const Position&, std::span<float>) const");
+  }
+  return Dynamics<D>;
 }
 
 template <Dynamics D>
@@ -84,7 +111,8 @@ class Batch final : public Environment {
     for (std::uint32_t lane = 0; lane < lanes; ++lane) {
       dice_.push_back(stream(seed, "world", lane));
       start_dice_.push_back(stream(seed, "start", lane));
-      positions_.push_back(dynamics_.start(start_dice_.back()));
+      Rng first = start_dice_.back();  // restart() draws it again
+      positions_.push_back(dynamics_.start(first));
     }
   }
   Spaces spaces() const override { return dynamics_.spaces(); }
@@ -101,6 +129,10 @@ class Batch final : public Environment {
       now.feedback[lane] = dynamics_.step(positions_[lane], now.action[lane], dice_[lane]);
       show(lane, now.next, now.next_observation);
     }
+  }
+  std::uint32_t actions(State state) const override {
+    if constexpr (HasActions<D>) return dynamics_.actions(state);
+    return dynamics_.spaces().actions;
   }
   bool set(std::uint32_t lane, State state) override {
     if constexpr (Settable<D>) {
@@ -141,34 +173,27 @@ class Batch final : public Environment {
 /// `lanes` copies of a world stepped together; lane i depends on (seed, i) and its actions alone.
 template <class D>
 std::unique_ptr<Environment> batch(D dynamics, std::uint32_t lanes, std::uint64_t seed) {
-  static_assert(HasPosition<D>, "a world needs a copyable type: using Position = ...;");
-  if constexpr (HasPosition<D>) {
-    static_assert(HasSpaces<D>, "a world needs: quoll::Spaces spaces() const");
-    static_assert(HasStart<D>, "a world needs: Position start(auto& dice) const");
-    static_assert(HasStep<D>,
-                  "a world needs: quoll::Feedback step(Position&, quoll::Action, auto& dice) const");
-    static_assert(HasNumber<D> || HasObserve<D>,
-                  "a world needs: quoll::State number(const Position&) const, or "
-                  "void observe(const Position&, std::span<float>) const");
-    if constexpr (Dynamics<D>) {
-      return std::make_unique<detail::Batch<D>>(std::move(dynamics), lanes, seed);
-    }
+  if constexpr (detail::complete<D>()) {
+    return std::make_unique<detail::Batch<D>>(std::move(dynamics), lanes, seed);
   }
   return nullptr;
 }
 
-/// The World of a plain struct: what it declares, and batches of it. `traits.states` follows spaces().
+/// The World of a plain struct: what it declares, and batches of it. `traits.states` follows
+/// spaces().
 template <class D>
 World to_world(std::string name, D dynamics, double discount, Traits traits = {}) {
   World world;
   world.name = std::move(name);
   world.discount = discount;
   world.traits = traits;
-  world.traits.states = dynamics.spaces().states;
-  world.traits.settable = Settable<D>;
-  world.make = [dynamics](std::uint32_t lanes, std::uint64_t seed) {
-    return batch(dynamics, lanes, seed);
-  };
+  if constexpr (detail::complete<D>()) {
+    world.traits.states = dynamics.spaces().states;
+    world.traits.settable = Settable<D>;
+    world.make = [dynamics](std::uint32_t lanes, std::uint64_t seed) {
+      return batch(dynamics, lanes, seed);
+    };
+  }
   return world;
 }
 

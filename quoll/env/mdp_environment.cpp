@@ -35,10 +35,19 @@ class MdpEnvironment final : public Environment {
       if (restart[lane]) now.state[lane] = start(unit(start_dice_[lane].next()));
     }
   }
+  std::uint32_t actions(State state) const override {
+    return mdp_->terminal(state) ? 0 : mdp_->actions(state);
+  }
   void step(Experience& now) override {
     for (std::size_t lane = 0; lane < dice_.size(); ++lane) {
+      const std::uint64_t draw = dice_[lane].next();
+      if (mdp_->terminal(now.state[lane])) {
+        now.next[lane] = now.state[lane];
+        now.feedback[lane] = {0.0, true, false};
+        continue;
+      }
       const std::uint64_t choice = mdp_->choice_begin(now.state[lane]) + now.action[lane];
-      const Landing<double> landing = table_.step(choice, dice_[lane].next());
+      const Landing<double> landing = table_.view().step(choice, draw);
       now.next[lane] = landing.next;
       now.feedback[lane] = {landing.reward, landing.terminated, false};
     }
@@ -53,9 +62,9 @@ class MdpEnvironment final : public Environment {
 
  private:
   State start(double draw) const {
-    std::size_t i = 0;
-    while (i + 1 < start_sum_.size() && draw >= start_sum_[i]) ++i;
-    return mdp_->start()[i];
+    // The last start takes what rounding leaves over.
+    const auto found = std::upper_bound(start_sum_.begin(), start_sum_.end() - 1, draw);
+    return mdp_->start()[static_cast<std::size_t>(found - start_sum_.begin())];
   }
 
   std::shared_ptr<const Mdp> mdp_;

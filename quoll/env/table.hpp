@@ -1,7 +1,7 @@
 #pragma once
-// Enumerable worlds packed for the learning loop: deterministic ones give successor, end and reward in
-// one load; stochastic ones a short row of thresholds. Indexed by pair, in the layout of the rows
-// (act/rows.hpp), so that padding costs nothing extra to skip.
+// Enumerable worlds packed for the learning loop: deterministic ones give successor, end and reward
+// in one load; stochastic ones a short row of thresholds. Indexed by pair, in the layout of the
+// rows (act/rows.hpp), so that padding costs nothing extra to skip.
 
 #include <cstdint>
 #include <memory>
@@ -30,7 +30,8 @@ struct Move {
 };
 
 /// A move of probability given by thresholds: taken when the draw is at most `threshold` and above
-/// those before it. The last one's threshold is the largest number, so no draw can fall off the row.
+/// those before it. The last one's threshold is the largest number, so no draw can fall off the
+/// row.
 template <class Value>
 struct ChanceMove {
   std::uint64_t threshold = ~std::uint64_t{0};
@@ -42,32 +43,41 @@ template <class Value>
 struct DeterministicTable {
   std::vector<Move<Value>> moves;  ///< per pair
 
-  Landing<Value> step(std::uint64_t pair, std::uint64_t) const {
-    const Move<Value> move = moves[pair];
-    return {move.packed & ~end_bit, move.reward, (move.packed & end_bit) != 0};
-  }
+  struct View {
+    const Move<Value>* moves;
+    Landing<Value> step(std::uint64_t pair, std::uint64_t) const {
+      const Move<Value> move = moves[pair];
+      return {move.packed & ~end_bit, move.reward, (move.packed & end_bit) != 0};
+    }
+  };
+  View view() const { return {moves.data()}; }
 };
 
 template <class Value>
 struct StochasticTable {
-  std::vector<std::uint64_t> begin;     ///< per pair, and the end
+  std::vector<std::uint64_t> begin;  ///< per pair, and the end
   std::vector<ChanceMove<Value>> moves;
 
-  Landing<Value> step(std::uint64_t pair, std::uint64_t draw) const {
-    const ChanceMove<Value>* move = &moves[begin[pair]];
-    std::uint64_t count = begin[pair + 1] - begin[pair];
-    while (count > 8) {  // halve long rows
-      const std::uint64_t half = count / 2;
-      if (move[half - 1].threshold < draw) {
-        move += half;
-        count -= half;
-      } else {
-        count = half;
+  struct View {
+    const std::uint64_t* begin;
+    const ChanceMove<Value>* moves;
+    Landing<Value> step(std::uint64_t pair, std::uint64_t draw) const {
+      const ChanceMove<Value>* move = moves + begin[pair];
+      std::uint64_t count = begin[pair + 1] - begin[pair];
+      while (count > 8) {  // halve long rows
+        const std::uint64_t half = count / 2;
+        if (move[half - 1].threshold < draw) {
+          move += half;
+          count -= half;
+        } else {
+          count = half;
+        }
       }
+      while (move->threshold < draw) ++move;
+      return {move->packed & ~end_bit, move->reward, (move->packed & end_bit) != 0};
     }
-    while (move->threshold < draw) ++move;
-    return {move->packed & ~end_bit, move->reward, (move->packed & end_bit) != 0};
-  }
+  };
+  View view() const { return {begin.data(), moves.data()}; }
 };
 
 /// First pair of each state (and the end) when rows are padded to `width`, or without padding when

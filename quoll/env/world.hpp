@@ -18,9 +18,9 @@ namespace quoll {
 /// What a world declares of itself; defaults and stopping rules follow these, never a measurement.
 struct Traits {
   bool deterministic = false;
-  bool settable = false;       ///< can be put into any state: start strategies may choose
+  bool settable = false;  ///< can be put into any state: start strategies may choose
   std::uint32_t players = 1;
-  std::uint64_t states = 0;    ///< 0 = not enumerable
+  std::uint64_t states = 0;  ///< 0 = not enumerable
   std::optional<std::pair<double, double>> reward_bounds;
   enum class StepCost : std::uint8_t { cheap, dear } step_cost = StepCost::cheap;
 };
@@ -30,8 +30,8 @@ struct World {
   std::vector<std::pair<std::string, std::string>> parameters;  ///< as given by --with
   Traits traits;
   double discount = 1.0;
-  std::uint64_t episode_steps = 0;       ///< the world's own step limit; 0 = none
-  std::shared_ptr<const Mdp> mdp;        ///< the model, or null when it is not known
+  std::uint64_t episode_steps = 0;  ///< the world's own step limit; 0 = none
+  std::shared_ptr<const Mdp> mdp;   ///< the model, or null when it is not known
   /// `lanes` environments in one, for a seed.
   std::function<std::unique_ptr<Environment>(std::uint32_t lanes, std::uint64_t seed)> make;
 };

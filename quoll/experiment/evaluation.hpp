@@ -1,5 +1,6 @@
 #pragma once
-// Greedy episodes of the final policy with their own random numbers, and honest statistics over seeds.
+// Greedy episodes of the final policy with their own random numbers, and honest statistics over
+// seeds.
 
 #include <cstdint>
 #include <optional>
@@ -14,19 +15,19 @@ namespace quoll {
 /// What playing a policy gave.
 struct Played {
   std::uint64_t episodes = 0;
-  double mean = 0.0;             ///< undiscounted return per episode
+  double mean = 0.0;  ///< undiscounted return per episode
   double mean_discounted = 0.0;
   double mean_steps = 0.0;
-  double ended = 0.0;            ///< share of episodes that reached an end before the cut
+  double ended = 0.0;  ///< share of episodes that reached an end before the cut
 };
 
-/// Plays `episodes` episodes from the world's own starts with the stream "evaluation" of `seed`, each
-/// cut off after `episode_steps`. A state the policy knows nothing about ends the episode.
+/// Plays `episodes` episodes from the world's own starts with the stream "evaluation" of `seed`,
+/// each cut off after `episode_steps`. A state the policy knows nothing about ends the episode.
 Played play(const World& world, const TablePolicy& policy, std::uint64_t episodes,
             std::uint64_t seed, double discount, std::uint64_t episode_steps);
 
-/// Over per-seed means: mean, median, interquartile mean, smallest, and the 95 % bootstrap interval of
-/// the mean (2,000 resamples, fixed stream). Agarwal et al. 2021 ("Deep RL at the edge of the
+/// Over per-seed means: mean, median, interquartile mean, smallest, and the 95 % bootstrap interval
+/// of the mean (2,000 resamples, fixed stream). Agarwal et al. 2021 ("Deep RL at the edge of the
 /// statistical precipice"). The interval is absent for fewer than 2 seeds.
 struct Statistics {
   double mean = 0.0, median = 0.0, iqm = 0.0, minimum = 0.0;

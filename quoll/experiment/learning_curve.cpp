@@ -28,9 +28,9 @@ void LearningCurve::persist(Archive& archive) {
   archive("closed_episodes", closed_episodes_);
   archive("return_sum", return_sum_);
   archive("closed_return_sum", closed_return_sum_);
-  if (width_ == 0) {
-    width_ = first_width;
-    archive.fail("a curve without width");
+  if (width_ < first_width || bins_.size() >= most_bins) {
+    *this = LearningCurve();
+    archive.fail("a curve that cannot be");
   }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-// The mean return of the episodes that ended in each bin of steps. At most 512 bins: when they are full,
-// neighbours are joined and bins become twice as wide, so that the curve of a run depends on its steps
-// alone, never on its limit, its cuts or the clock.
+// The mean return of the episodes that ended in each bin of steps. At most 512 bins: when they are
+// full, neighbours are joined and bins become twice as wide, so that the curve of a run depends on
+// its steps alone, never on its limit, its cuts or the clock.
 
 #include <cstdint>
 #include <vector>

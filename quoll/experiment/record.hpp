@@ -9,8 +9,8 @@ namespace quoll {
 
 struct Record {
   std::uint64_t step = 0;
-  std::uint32_t lane = 0;      ///< index of the seed
-  std::string_view name;       ///< "episodic_return", "episodes"
+  std::uint32_t lane = 0;  ///< index of the seed
+  std::string_view name;   ///< "episodic_return", "episodes"
   double value = 0.0;
 };
 

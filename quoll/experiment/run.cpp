@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <utility>
 
 #include "quoll/base/file.hpp"
 #include "quoll/base/parallel.hpp"
@@ -35,7 +36,9 @@ Result<void> defined_without_discount(const World& world, double discount) {
                ""};
 }
 
-std::uint64_t world_digest(const World& world) { return world.mdp ? digest(*world.mdp) : 0; }
+std::uint64_t world_digest(const World& world) {
+  return world.mdp ? digest(*world.mdp) : 0;
+}
 
 }  // namespace
 
@@ -86,7 +89,9 @@ bool Run::advance(const RunSettings& limits_asked, double pause,
   const Clock::time_point begun = Clock::now();
   const auto since = [&] { return std::chrono::duration<double>(Clock::now() - begun).count(); };
   std::mutex mutex;
-  std::vector<LearnProgress> where(trainings_.size());
+  std::vector<LearnProgress> where, before;
+  for (const Training& training : trainings_) before.push_back(training.learner().progress());
+  where = before;
   std::atomic<bool> stopped{false}, paused{false};
   const auto between = [&](const Training& training) {
     if (stopped || paused) return false;
@@ -103,7 +108,9 @@ bool Run::advance(const RunSettings& limits_asked, double pause,
       progress.mean_return = bins.back().mean();
     }
     if (keep_going && !keep_going(progress)) stopped = true;
-    if (pause > 0.0 && progress.seconds >= pause) paused = true;
+    // However short the pause, each call of advance() learns something.
+    const bool moved = where[training.index()].steps > before[training.index()].steps;
+    if (pause > 0.0 && progress.seconds >= pause && moved) paused = true;
     return !stopped && !paused;
   };
   const Sink locked = [&](const Record& record) {
@@ -114,8 +121,8 @@ bool Run::advance(const RunSettings& limits_asked, double pause,
     trainings_[i].advance(limits, between, sink ? locked : Sink());
   });
   return !paused || std::none_of(trainings_.begin(), trainings_.end(), [](const Training& one) {
-           return one.stop() == Stop::interrupted;
-         });
+    return one.stop() == Stop::interrupted;
+  });
 }
 
 std::vector<State> Run::starts() const {
@@ -132,8 +139,10 @@ RunResult Run::result(bool solve_too) const {
     settings.discount = discount();
     settings.width = 1e-9;
     Result<Solution> exact = solve(*mdp, settings);
-    if (exact) result.exact = std::move(*exact);
-    else result.no_exact = message(exact.error());
+    if (exact)
+      result.exact = std::move(*exact);
+    else
+      result.no_exact = message(exact.error());
   } else if (!mdp) {
     result.no_exact = "the model of " + world_->name + " is not known";
   }
@@ -144,16 +153,22 @@ RunResult Run::result(bool solve_too) const {
     const Training& training = trainings_[i];
     const LearnProgress progress = training.learner().progress();
     SeedResult& seed = result.seeds[i];
-    seed = {training.seed(),  progress.steps,      progress.episodes, training.seconds(),
-            training.stop(), progress.impossible, {},                {},
+    seed = {training.seed(),
+            progress.steps,
+            progress.episodes,
+            training.seconds(),
+            training.stop(),
+            progress.impossible,
+            {},
+            {},
             {}};
-    if (!mdp) return;
-    seed.policy = greedy_policy(*mdp, training.learner().estimates());
-    if (result.exact) {
+    seed.policy = greedy_policy(training.learner().estimates());
+    if (mdp && result.exact) {
       seed.optimality = judge(*mdp, *result.exact, seed.policy, from, discount());
     }
-    const std::uint64_t cut = world_->episode_steps > 0 ? world_->episode_steps
-                                                        : std::max<std::uint64_t>(2000, mdp->states());
+    const std::uint64_t cut = world_->episode_steps > 0
+                                  ? world_->episode_steps
+                                  : std::max<std::uint64_t>(2000, world_->traits.states);
     seed.played = play(*world_, TablePolicy(seed.policy), settings_.evaluation_episodes, seed.seed,
                        discount(), cut);
   });
@@ -199,7 +214,8 @@ Result<Run> Run::load(const std::string& path, bool watch) {
   std::uint64_t fingerprint = 0;
   archive("digest", fingerprint);
   const auto refuse = [&](const std::string& why) { return Error{path, 0, 0, why, ""}; };
-  if (!archive.good()) return refuse("not a run this program can read: " + archive.error().expected);
+  if (!archive.good())
+    return refuse("not a run this program can read: " + archive.error().expected);
   Result<World> world = find_world(saved.source_.name, saved.source_.parameters);
   if (!world) {
     const std::size_t slash = path.find_last_of('/');
@@ -214,14 +230,21 @@ Result<Run> Run::load(const std::string& path, bool watch) {
   if (world_digest(*world) != fingerprint) {
     return refuse("the world " + saved.source_.name + " has changed since this run was saved");
   }
-  saved.settings_.force = true;  // it was checked when the run began
+  // Each seed takes bytes of the content: no number of them can cost more memory than the file.
+  if (saved.settings_.seeds == 0 || saved.settings_.seeds > content->size()) {
+    return refuse("not a run this program can read: it claims " +
+                  std::to_string(saved.settings_.seeds) + " seeds");
+  }
+  const bool force = std::exchange(saved.settings_.force, true);  // checked when the run began
   saved.settings_.learn.until_stable = watch;
   Result<Run> run = start(saved.settings_, saved.source_, *world, saved.initial_rewards_);
   if (!run) return refuse(message(run.error()));
+  run->settings_.force = force;
   for (Training& training : run->trainings_) archive("training", training);
-  if (!archive.good() || !archive.at_end()) {
+  if (!archive.good()) {
     return refuse("not a run this program can read: " + archive.error().expected);
   }
+  if (!archive.at_end()) return refuse("not a run this program can read: more follows its end");
   return run;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// A run: some seeds of one way to learn in one world, until a limit or a goal; saved, resumed, judged.
+// A run: some seeds of one way to learn in one world, until a limit or a goal; saved, resumed,
+// judged.
 
 #include <functional>
 #include <memory>
@@ -24,9 +25,9 @@ struct WorldSource {
 /// Where all seeds together stand, for progress lines.
 struct RunProgress {
   std::uint64_t steps = 0, episodes = 0;
-  std::uint64_t finished = 0;          ///< seeds that are done
-  double seconds = 0.0;                ///< since this call began
-  std::optional<double> mean_return;   ///< of the episodes of the last closed bin, first seed
+  std::uint64_t finished = 0;         ///< seeds that are done
+  double seconds = 0.0;               ///< since this call began
+  std::optional<double> mean_return;  ///< of the episodes of the last closed bin, first seed
 };
 
 /// What one seed came to.
@@ -35,33 +36,33 @@ struct SeedResult {
   double seconds = 0.0;
   Stop stop = Stop::none;
   Impossible impossible;
-  std::vector<Action> policy;           ///< greedy among visited; worlds with a model
-  std::optional<Optimality> optimality; ///< where an exact answer is known
+  std::vector<Action> policy;            ///< greedy among visited
+  std::optional<Optimality> optimality;  ///< where an exact answer is known
   Played played;
 };
 
 /// What a run came to.
 struct RunResult {
   std::optional<Solution> exact;
-  std::string no_exact;           ///< why there is no exact answer
+  std::string no_exact;  ///< why there is no exact answer
   std::vector<SeedResult> seeds;
-  Statistics statistics;          ///< over the seeds' mean returns
-  double seconds = 0.0;           ///< learning, all seeds together
+  Statistics statistics;  ///< over the seeds' mean returns
+  double seconds = 0.0;   ///< learning, all seeds together
 };
 
 class Run {
  public:
   static Result<Run> start(RunSettings settings, WorldSource source, const World& world,
                            std::vector<double> initial_rewards);
-  /// Reads a run file; finds its world again (beside the file if not where it was), and refuses a world
-  /// that has changed since. `watch` = whether it goes on to watch for stability.
+  /// Reads a run file; finds its world again (beside the file if not where it was), and refuses a
+  /// world that has changed since. `watch` = whether it goes on to watch for stability.
   static Result<Run> load(const std::string& path, bool watch = true);
   /// Writes the run atomically. Between calls of advance() only.
   Result<void> save(const std::string& path);
 
   /// Learns until every seed has met a limit of the settings, or `keep_going` returns false. Called
-  /// between chunks from one thread at a time; `pause` (seconds, 0 = never) gives the caller the run
-  /// back every so often, for saving: then false is returned. True = all seeds are done.
+  /// between chunks from one thread at a time; `pause` (seconds, 0 = never) gives the caller the
+  /// run back every so often, for saving: then false is returned. True = all seeds are done.
   bool advance(const RunSettings& limits, double pause,
                const std::function<bool(const RunProgress&)>& keep_going, const Sink& sink);
 

@@ -32,12 +32,16 @@ Result<double> parse_duration(std::string_view text, std::string_view place) {
   const std::string_view word = trim(text);
   const std::size_t digits = word.find_first_not_of("0123456789.");
   const std::string_view unit = digits == std::string_view::npos ? "s" : word.substr(digits);
-  const double scale = unit == "ms" ? 1e-3 : unit == "s" ? 1 : unit == "m" ? 60 : unit == "h" ? 3600 : 0;
+  const double scale = unit == "ms"  ? 1e-3
+                       : unit == "s" ? 1
+                       : unit == "m" ? 60
+                       : unit == "h" ? 3600
+                                     : 0;
   const auto number = parse_number(word.substr(0, digits));
   if (!number || !(*number > 0.0) || !std::isfinite(*number) || scale == 0.0) {
-    return Error{std::string(place), 0, 0,
-                 "a duration such as 10s, 2m, 1h or 500ms expected, not '" + std::string(text) + "'",
-                 ""};
+    return Error{
+        std::string(place), 0, 0,
+        "a duration such as 10s, 2m, 1h or 500ms expected, not '" + std::string(text) + "'", ""};
   }
   return *number * scale;
 }

@@ -41,14 +41,14 @@ Stop Training::advance(const Limits& limits, const Between& between, const Sink&
   for (;;) {
     seconds_ = before + std::chrono::duration<double>(Clock::now() - begun).count();
     using Halt = LearnProgress::Halt;
-    stop_ = now.halt == Halt::stable                                    ? Stop::stable
-            : now.halt == Halt::diverged                                ? Stop::diverged
-            : limits.steps > 0 && now.steps >= limits.steps             ? Stop::steps
-            : limits.episodes > 0 && now.episodes >= limits.episodes    ? Stop::episodes
-            : limits.budget > 0 && now.steps >= limits.budget           ? Stop::budget
-            : limits.seconds > 0.0 && seconds_ >= limits.seconds        ? Stop::time
-            : between && !between(*this)                                ? Stop::interrupted
-                                                                        : Stop::none;
+    stop_ = now.halt == Halt::stable                                 ? Stop::stable
+            : now.halt == Halt::diverged                             ? Stop::diverged
+            : limits.steps > 0 && now.steps >= limits.steps          ? Stop::steps
+            : limits.episodes > 0 && now.episodes >= limits.episodes ? Stop::episodes
+            : limits.budget > 0 && now.steps >= limits.budget        ? Stop::budget
+            : limits.seconds > 0.0 && seconds_ >= limits.seconds     ? Stop::time
+            : between && !between(*this)                             ? Stop::interrupted
+                                                                     : Stop::none;
     if (stop_ != Stop::none) return stop_;
     now = learner_->advance(chunk(limits, now), {});
     if (curve_.advance(now.steps, now.episodes, now.return_sum) && sink) {

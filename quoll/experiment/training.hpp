@@ -1,6 +1,6 @@
 #pragma once
-// One seed of a run: a learner advanced in chunks until a limit or a goal, with its curve. Chunks end at
-// exact steps and change no bit; everything that looks at a clock stands between them.
+// One seed of a run: a learner advanced in chunks until a limit or a goal, with its curve. Chunks
+// end at exact steps and change no bit; everything that looks at a clock stands between them.
 
 #include <cstdint>
 #include <functional>
@@ -39,8 +39,8 @@ class Training {
   /// Between chunks: the training so far; false asks it to stop.
   using Between = std::function<bool(const Training&)>;
 
-  static Result<Training> make(const RunSettings& settings, std::uint64_t index,
-                               const World& world, const std::vector<double>& initial_rewards);
+  static Result<Training> make(const RunSettings& settings, std::uint64_t index, const World& world,
+                               const std::vector<double>& initial_rewards);
 
   /// Advances until a limit is met or the learner halts. Does nothing when that is so already.
   Stop advance(const Limits& limits, const Between& between, const Sink& sink);

@@ -36,8 +36,10 @@ struct LearnProgress {
   Impossible impossible;          ///< the first one
 };
 
-/// What was learned, per choice of the model (choice_begin(s) + a), in plain doubles.
+/// What was learned, per choice of the model (choice_begin(s) + a), in plain doubles. Without a model
+/// the rows are those of the environment: row_begin[s] + a.
 struct Estimates {
+  std::vector<std::uint64_t> row_begin;  ///< first choice of each state, and the end
   std::vector<double> q;
   std::vector<std::uint32_t> visits;
   std::vector<double> reward_estimate;  ///< rules with their own rE; else empty
@@ -80,6 +82,6 @@ Result<const LearnerEntry*> find_learner(const LearnSettings& settings);
 
 /// The greedy policy of the estimates: among visited actions only, ties to the lowest index;
 /// no_action where none was visited and for ends.
-std::vector<Action> greedy_policy(const Mdp& mdp, const Estimates& estimates);
+std::vector<Action> greedy_policy(const Estimates& estimates);
 
 }  // namespace quoll

@@ -45,16 +45,16 @@ Result<std::unique_ptr<Learner>> make_learner(const LearnSettings& settings, con
   return (*entry)->make(*setup);
 }
 
-std::vector<Action> greedy_policy(const Mdp& mdp, const Estimates& estimates) {
-  std::vector<Action> policy(mdp.states(), no_action);
-  for (State s = 0; s < mdp.states(); ++s) {
-    if (mdp.terminal(s)) continue;
-    for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
+std::vector<Action> greedy_policy(const Estimates& estimates) {
+  const std::vector<std::uint64_t>& begin = estimates.row_begin;
+  std::vector<Action> policy(begin.size() - 1, no_action);
+  for (std::size_t s = 0; s < policy.size(); ++s) {
+    for (std::uint64_t c = begin[s]; c < begin[s + 1]; ++c) {
+      // Nobody acts in an end, so its pairs are never visited.
       if (estimates.visits[c] == 0) continue;
-      const auto a = static_cast<Action>(c - mdp.choice_begin(s));
       const Action best = policy[s];
-      if (best == no_action || estimates.q[c] > estimates.q[mdp.choice_begin(s) + best]) {
-        policy[s] = a;
+      if (best == no_action || estimates.q[c] > estimates.q[begin[s] + best]) {
+        policy[s] = static_cast<Action>(c - begin[s]);
       }
     }
   }

@@ -214,6 +214,13 @@ Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
   const auto initial = initial_value(settings, world, setup.discount);
   if (!initial) return initial.error();
   setup.initial_value = settings.rule == "as-printed" ? 0.0 : *initial;  // all QE = 0, as printed
+  const std::uint64_t choices = world.mdp ? world.mdp->choices() : 0;
+  if (!initial_rewards.empty() && initial_rewards.size() != choices) {
+    return Error{"--initial-rewards", 0, 0,
+                 "one value for each of the " + std::to_string(choices) + " moves of " + world.name +
+                     " expected, not " + std::to_string(initial_rewards.size()),
+                 ""};
+  }
   setup.initial_rewards = initial_rewards;
   if (initial_rewards.empty() && settings.initial_rewards == "world" && world.mdp) {
     setup.initial_rewards = world.mdp->arrays().reward;

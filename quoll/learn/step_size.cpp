@@ -7,11 +7,13 @@ namespace quoll {
 
 void StepSize::prepare() {
   if (kind != Kind::power) return;
-  powers_.resize(4096);
-  for (std::uint32_t n = 1; n < powers_.size(); ++n) powers_[n] = power(n);
+  std::vector<double> powers(4096);
+  for (std::uint32_t n = 1; n < powers.size(); ++n) powers[n] = power(n);
+  powers_ = std::make_shared<const std::vector<double>>(std::move(powers));
 }
 
 double StepSize::power(std::uint32_t n) const {
+  if (value == 1.0) return 1.0 / static_cast<double>(n);
   return math::pow(static_cast<double>(n), -value);
 }
 

@@ -3,6 +3,7 @@
 // Even-Dar, Mansour 2003 (JMLR 5) for 1/N^w; Jin et al. 2018 and Wainwright 2019 for (H+1)/(H+N).
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,24 +12,28 @@
 
 namespace quoll {
 
+/// A step size that never changes and is not small, for the loop that needs no other.
+struct ConstantStep {
+  double value;
+  bool one() const { return value == 1.0; }
+  bool small() const { return false; }
+  double at(std::uint32_t) const { return value; }
+};
+
 struct StepSize {
   enum class Kind : std::uint8_t { constant, power, rescaled_linear };
   Kind kind = Kind::constant;
   double value = 1.0;  ///< constant: the step size; power: w; rescaled_linear: H
 
   bool constant() const { return kind == Kind::constant; }
+  /// Steps with which a float, rounded to nearest, may stand still short of its target.
+  bool small() const { return kind != Kind::constant || value < 0x1p-10; }
   bool one() const { return kind == Kind::constant && value == 1.0; }
 
   /// The step size at the N-th visit, N >= 1.
   double at(std::uint32_t n) const {
-    switch (kind) {
-      case Kind::constant:
-        return value;
-      case Kind::power:
-        return n < powers_.size() ? powers_[n] : power(n);
-      case Kind::rescaled_linear:
-        return (value + 1.0) / (value + static_cast<double>(n));
-    }
+    if (kind == Kind::rescaled_linear) return (value + 1.0) / (value + static_cast<double>(n));
+    if (kind == Kind::power) return n < powers_->size() ? (*powers_)[n] : power(n);
     return value;
   }
 
@@ -39,7 +44,7 @@ struct StepSize {
 
  private:
   double power(std::uint32_t n) const;
-  std::vector<double> powers_;
+  std::shared_ptr<const std::vector<double>> powers_;  // shared, so that a copy is cheap
 };
 
 /// "0.1", "1/N^0.8", "rescaled-linear" (H = 1 / (1 - discount), or 1000 at discount 1), or "auto": 1 in

@@ -1,6 +1,7 @@
-// The lecture's pseudo code exactly as printed, for learning about it only. It never reads the observed
-// reward, and what it stores as reward already holds the future, which it counts again at the next
-// visit: with the k-th visit seeing the successor maximum m_k, QE = rE0 + gamma (m_1 + ... + m_k).
+// The lecture's pseudo code exactly as printed, for learning about it only. It never reads the
+// observed reward, and what it stores as reward already holds the future, which it counts again at
+// the next visit: with the k-th visit seeing the successor maximum m_k, QE = rE0 + gamma (m_1 + ...
+// + m_k).
 //
 //   all QE(s,a) = 0, rE(s,a) = given initial values
 //   repeat: choose s, a; see s'
@@ -32,7 +33,7 @@ struct AsPrinted {
   void learned(std::uint64_t pair, double value) { reward_[pair] = value; }
 
   double reward_estimate(std::uint64_t pair) const { return reward_[pair]; }
-  void persist(Archive& archive) { archive("reward_estimate", reward_); }
+  void persist(Archive& archive) { persist_per_pair(archive, "reward_estimate", reward_); }
 
  private:
   std::vector<double> reward_;
@@ -41,8 +42,11 @@ struct AsPrinted {
 }  // namespace
 
 const LearnerEntry q_learning_as_printed{
-    "q-learning", "as-printed",
-    "the lecture's pseudo code exactly as printed; counts the future again at each re-visit", false,
-    tabular<AsPrinted>, replay<AsPrinted>};
+    "q-learning",
+    "as-printed",
+    "the lecture's pseudo code exactly as printed; counts the future again at each re-visit",
+    false,
+    tabular<AsPrinted>,
+    replay<AsPrinted>};
 
 }  // namespace quoll

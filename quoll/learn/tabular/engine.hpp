@@ -1,8 +1,10 @@
 #pragma once
-// The tabular loop, written once: a template over (update rule) x (source of experience) x (layout of
-// the rows). Virtual per chunk, static per step. Every step takes two draws for the behaviour and one
-// for the world, used or not, so that cuts, logs and watching for stability leave every bit as it is.
+// The tabular loop, written once: a template over (update rule) x (source of experience) x (layout
+// of the rows). Virtual per chunk, static per step. Every step takes two draws for the behaviour
+// and one for the world, used or not, so that cuts, logs and watching for stability leave every bit
+// as it is.
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <type_traits>
@@ -43,18 +45,20 @@ class TabularLearner final : public Learner {
     cursor_.behaviour = stream(setup.seed, "behaviour");
     cursor_.world = stream(setup.seed, "world");
     cursor_.start = stream(setup.seed, "start");
-    begin_episode(cursor_);
+    cursor_.state = begin_episode();
   }
 
   LearnProgress advance(std::uint64_t steps, std::span<Update> log) override {
     progress_.logged = 0;
     if (progress_.halt == LearnProgress::Halt::none) {
       if (!log.empty()) {
-        run<Watch::log>(std::min<std::uint64_t>(steps, log.size()), log);
+        run<Watch::log>(std::min<std::uint64_t>(steps, log.size()), log, exploration_, step_size_);
       } else if (stability_.watching()) {
-        run<Watch::stability>(steps, log);
+        run<Watch::stability>(steps, log, exploration_, step_size_);
+      } else if (padded_rows && exploration_.is_coin() && !step_size_.small()) {
+        run_plain(steps);
       } else {
-        run<Watch::nothing>(steps, log);
+        run<Watch::nothing>(steps, log, exploration_, step_size_);
       }
     }
     return progress();
@@ -71,6 +75,7 @@ class TabularLearner final : public Learner {
   Estimates estimates() const override {
     Estimates out;
     out.single_precision = sizeof(Value) == 4;
+    out.row_begin = begin_;
     const std::uint64_t states = begin_.size() - 1;
     for (State s = 0; s < states; ++s) {
       for (Action a = 0; a < begin_[s + 1] - begin_[s]; ++a) {
@@ -95,14 +100,22 @@ class TabularLearner final : public Learner {
     archive("impossible_action", first.action);
     archive("impossible_value", first.value);
     archive("impossible_bound", first.bound);
+    if (progress_.halt > LearnProgress::Halt::diverged) {
+      progress_.halt = LearnProgress::Halt::none;
+      archive.fail("an unknown halt");
+    }
     const std::size_t pairs = values_.size(), states = met_.size();
+    const std::vector<Value> fresh = archive.saving() ? std::vector<Value>() : values_;
     archive("values", values_);
     archive("visits", visits_);
     archive("met", met_);
     if (!archive.saving()) {
-      if (values_.size() != pairs || visits_.size() != pairs ||
-          cursor_.state >= begin_.size() - 1) {
+      if (values_.size() != pairs || visits_.size() != pairs || !possible(cursor_.state) ||
+          first.state >= begin_.size() - 1 || cursor_.episode_step >= episode_steps_ ||
+          !same_padding(fresh)) {
         archive.fail("the saved table does not fit this world");
+        cursor_.state = 0;
+        first.state = 0;
       }
       values_.resize(pairs);
       visits_.resize(pairs);
@@ -122,7 +135,7 @@ class TabularLearner final : public Learner {
  private:
   enum class Watch : std::uint8_t { nothing, stability, log };
 
-  // What a step changes besides the table: held in registers inside run().
+  // What steps change besides the table.
   struct Cursor {
     Rng behaviour, world, start;
     State state = 0;
@@ -151,16 +164,31 @@ class TabularLearner final : public Learner {
       const std::uint64_t width = layout.width == 0 ? legal : layout.width;
       for (std::uint64_t a = 0; a < width; ++a) {
         Value& value = values_[rows_.pair(s, static_cast<Action>(a))];
-        if (end) value = 0;
-        else if (a >= legal) value = -std::numeric_limits<Value>::infinity();
+        if (end)
+          value = 0;
+        else if (a >= legal)
+          value = -std::numeric_limits<Value>::infinity();
       }
     }
   }
 
-  void begin_episode(Cursor& cursor) {
-    cursor.episode_step = 0;
-    cursor.episode_return = 0.0;
-    cursor.state = source_.start(starts_, cursor.start, [this](State s) {
+  // A state that an episode can stand in.
+  bool possible(State s) const {
+    return s < begin_.size() - 1 && begin_[s] < begin_[s + 1] && !(mdp_ && mdp_->terminal(s));
+  }
+
+  // -infinity where, and only where, a fresh table has it.
+  bool same_padding(const std::vector<Value>& fresh) const {
+    constexpr Value padding = -std::numeric_limits<Value>::infinity();
+    for (std::size_t i = 0; i < fresh.size() && i < values_.size(); ++i) {
+      if ((fresh[i] == padding) != (values_[i] == padding)) return false;
+    }
+    return true;
+  }
+
+  /// Draws the state of the next episode.
+  State begin_episode() {
+    return source_.start(starts_, cursor_.start, [this](State s) {
       std::uint64_t sum = 0;
       const auto actions = static_cast<Action>(begin_[s + 1] - begin_[s]);
       for (Action a = 0; a < actions; ++a) sum += visits_[rows_.pair(s, a)];
@@ -168,61 +196,105 @@ class TabularLearner final : public Learner {
     });
   }
 
-  template <Watch watch>
-  void run(std::uint64_t count, std::span<Update> log) {
-    Cursor cursor = cursor_;
+  [[gnu::noinline]] State end_episode(double episode_return) {
+    ++cursor_.episodes;
+    cursor_.return_sum += episode_return;
+    return begin_episode();
+  }
+
+  static constexpr bool padded_rows = std::is_same_v<Rows<Value>, FourRows<Value>>;
+
+  // The fast lane: nothing to watch, a coin for the choice, one step size.
+  void run_plain(std::uint64_t count) {
+    if constexpr (padded_rows) {
+      const std::uint64_t threshold = exploration_.coin_threshold();
+      const ConstantStep step{step_size_.value};
+      if (exploration_.first_tie) {
+        run<Watch::nothing>(count, {}, CoinExploration<true>{threshold}, step);
+      } else {
+        run<Watch::nothing>(count, {}, CoinExploration<false>{threshold}, step);
+      }
+    }
+  }
+
+  // Not inlined: each instance keeps the registers to itself.
+  template <Watch watch, class Choice, class Step>
+  [[gnu::noinline]] void run(std::uint64_t count, std::span<Update> log, const Choice exploration,
+                             const Step step_size) {
+    // What changes with every step is local, so that the compiler keeps it in registers.
+    Rng behaviour = cursor_.behaviour, dice = cursor_.world;
+    State state = cursor_.state;
+    std::uint64_t step = cursor_.step, episode_step = cursor_.episode_step;
+    double episode_return = cursor_.episode_return;
     Value* const q = values_.data();
     std::uint32_t* const visits = visits_.data();
     const Rows<Value> rows = rows_;
-    const std::uint64_t end = cursor.step + count;
-    RowView<Value> here = rows.view(q, cursor.state);
-    while (cursor.step < end) {
+    const double discount = discount_;
+    const std::uint64_t episode_steps = episode_steps_;
+    auto step_world = source_.stepper();
+    const std::uint64_t end = step + std::min(count, ~std::uint64_t{0} - step);
+    RowView<Value> here = rows.view(q, state);
+    while (step < end) {
       // 1. Choose an action a in s, see the reward r and the next state s'.
-      const ChoiceDraws draws = ChoiceDraws::of(cursor.behaviour);
-      const State state = cursor.state;
-      const Chosen chosen =
-          exploration_.choose(rows, q, visits, state, here, draws, cursor.step);
+      const ChoiceDraws draws = ChoiceDraws::of(behaviour);
+      const Chosen chosen = exploration.choose(rows, q, visits, state, here, draws, step);
       const std::uint64_t pair = rows.pair(state, chosen.action);
-      const auto landing = source_.step(pair, state, chosen.action, cursor.world.next());
-      ++cursor.step;
+      const auto landing = step_world(pair, state, chosen.action, dice.next());
+      ++step;
       // 2. Count the visit, form the target from max_a' Q(s', a'), store the new value.
       const std::uint32_t n = visits[pair] + (visits[pair] != ~std::uint32_t{0});
       visits[pair] = n;
       const RowView<Value> there = rows.view(q, landing.next);
       const double best_next = landing.terminated ? 0.0 : double{there.best};
       const Value old = q[pair];
-      const Revision<Value> revision =
-          revise(rule_, step_size_, pair, old, double{landing.reward}, discount_, best_next, n,
-                 draws.rounding());
+      const Revision<Value> revision = revise(rule_, step_size, pair, old, double{landing.reward},
+                                              discount, best_next, n, draws.rounding());
       q[pair] = revision.value;
       rule_.learned(pair, double{revision.value});
       if (!guard_.fine(double{revision.value})) [[unlikely]] {
-        look_closer(cursor.step, state, chosen.action, double{revision.value});
+        look_closer(step, state, chosen.action, double{revision.value});
       }
       // 3. Go on from s', or begin the next episode.
-      cursor.episode_return += double{landing.reward};
-      const bool truncated = ++cursor.episode_step == episode_steps_ || cut(landing);
+      episode_return += double{landing.reward};
+      const bool truncated = ++episode_step == episode_steps || cut(landing);
       if constexpr (watch != Watch::nothing) {
-        watch_stability(pair, state, landing.next, here, old, revision);
+        watch_stability(pair, state, landing.terminated ? state : landing.next, here, old,
+                        revision);
       }
       if constexpr (watch == Watch::log) {
-        log[progress_.logged++] = {cursor.step, 0, state, chosen.action,
-                                   revision.reward, landing.next, landing.terminated, truncated,
-                                   chosen.explored, double{old}, best_next, revision.target,
-                                   revision.step_size, double{revision.value}};
+        log[progress_.logged++] = {step,
+                                   0,
+                                   state,
+                                   chosen.action,
+                                   revision.reward,
+                                   landing.next,
+                                   landing.terminated,
+                                   truncated,
+                                   chosen.explored,
+                                   double{old},
+                                   best_next,
+                                   revision.target,
+                                   revision.step_size,
+                                   double{revision.value}};
       }
       if (landing.terminated || truncated) {
-        ++cursor.episodes;
-        cursor.return_sum += cursor.episode_return;
-        begin_episode(cursor);
-        here = rows.view(q, cursor.state);
+        state = end_episode(episode_return);
+        episode_step = 0;
+        episode_return = 0.0;
+        here = rows.view(q, state);
       } else {
-        cursor.state = landing.next;
         here = landing.next == state ? rows.view(q, state) : there;
+        state = landing.next;
       }
-      if (progress_.halt != LearnProgress::Halt::none) [[unlikely]] break;
+      if (progress_.halt != LearnProgress::Halt::none) [[unlikely]]
+        break;
     }
-    cursor_ = cursor;
+    cursor_.behaviour = behaviour;
+    cursor_.world = dice;
+    cursor_.state = state;
+    cursor_.step = step;
+    cursor_.episode_step = episode_step;
+    cursor_.episode_return = episode_return;
   }
 
   template <class Landing>
@@ -231,7 +303,8 @@ class TabularLearner final : public Learner {
     return false;
   }
 
-  void look_closer(std::uint64_t step, State state, Action action, double value) {
+  [[gnu::noinline, gnu::cold]] void look_closer(std::uint64_t step, State state, Action action,
+                                                double value) {
     const Impossible here{false, step, state, action, value, 0.0};
     if (guard_.halts(value, source_.largest_reward(), here, progress_.impossible)) {
       progress_.halt = LearnProgress::Halt::diverged;
@@ -244,7 +317,7 @@ class TabularLearner final : public Learner {
     if (stability_.counts_met()) {
       for (const State s : {state, next}) {
         if (std::exchange(met_[s], std::uint8_t{1})) continue;
-        stability_.met(mdp_ && mdp_->terminal(s) ? 0 : begin_[s + 1] - begin_[s]);
+        stability_.met(begin_[s + 1] - begin_[s]);
       }
     }
     const Value value = revision.value;
@@ -254,8 +327,8 @@ class TabularLearner final : public Learner {
       const bool was_best = old == before.best, is_best = value == after.best;
       changed = was_best != is_best || (is_best && rows_.count(before) != rows_.count(after));
     }
-    const double error = revision.step_size == 1.0 ? double{value} - double{old}
-                                                   : revision.target - double{old};
+    const double error =
+        revision.step_size == 1.0 ? double{value} - double{old} : revision.target - double{old};
     const double scale = std::max(1.0, std::fabs(double{value}));
     if (stability_.visited(pair, error, scale, changed) &&
         progress_.halt == LearnProgress::Halt::none) {
@@ -292,30 +365,35 @@ std::unique_ptr<Learner> tabular(const TabularSetup& setup) {
   if (!world.mdp) {
     std::unique_ptr<Environment> environment = world.make(1, setup.seed);
     const Spaces spaces = environment->spaces();
-    const PairLayout layout{0, std::uint64_t{spaces.states} * spaces.actions};
     std::vector<std::uint64_t> begin(std::size_t{spaces.states} + 1);
-    for (std::size_t s = 0; s < begin.size(); ++s) begin[s] = s * spaces.actions;
+    for (State s = 0; s < spaces.states; ++s) {
+      // An end has one pair too: a world may begin in one, and the step there does nothing.
+      begin[s + 1] = begin[s] + std::max<std::uint64_t>(environment->actions(s), 1);
+    }
+    const PairLayout layout{0, begin.back()};
     Rule rule(setup, layout, begin);
     return std::make_unique<TabularLearner<Rule, EnvironmentSource, RaggedRows>>(
         setup, std::move(rule), EnvironmentSource(std::move(environment)), spaces.states, layout,
         std::move(begin));
   }
+  // Padded rows for the rule whose speed counts; the others share the ragged ones.
+  constexpr bool padded = sizeof(Value) == 4 && !Rule::own_step;
   const Mdp& mdp = *world.mdp;
-  const PairLayout layout = pair_layout(mdp);
+  const PairLayout layout = padded ? pair_layout(mdp) : PairLayout{0, mdp.choices()};
   std::vector<std::uint64_t> begin = mdp.arrays().choice_begin;
   Rule rule(setup, layout, begin);
-  const auto make = [&]<class Source, template <class> class Rows>(Source source) {
-    return std::make_unique<TabularLearner<Rule, Source, Rows>>(
+  const auto make = [&]<class Source>(Source source) -> std::unique_ptr<Learner> {
+    if constexpr (padded) {
+      if (layout.width == 4) {
+        return std::make_unique<TabularLearner<Rule, Source, FourRows>>(
+            setup, std::move(rule), std::move(source), mdp.states(), layout, std::move(begin));
+      }
+    }
+    return std::make_unique<TabularLearner<Rule, Source, RaggedRows>>(
         setup, std::move(rule), std::move(source), mdp.states(), layout, std::move(begin));
   };
-  if (mdp.deterministic()) {
-    Fixed source{deterministic_table<Value>(mdp, layout)};
-    if (layout.width == 4) return make.template operator()<Fixed, FourRows>(std::move(source));
-    return make.template operator()<Fixed, RaggedRows>(std::move(source));
-  }
-  Chance source{stochastic_table<Value>(mdp, layout)};
-  if (layout.width == 4) return make.template operator()<Chance, FourRows>(std::move(source));
-  return make.template operator()<Chance, RaggedRows>(std::move(source));
+  if (mdp.deterministic()) return make(Fixed{deterministic_table<Value>(mdp, layout)});
+  return make(Chance{stochastic_table<Value>(mdp, layout)});
 }
 
 }  // namespace quoll

@@ -1,7 +1,7 @@
 #pragma once
-// The divergence guard: no one-step rule with step size in [0, 1] can leave the interval of values that
-// policies can earn, |Q| <= B = max(max |Q0|, R / (1 - discount)). A value beyond it is reported with
-// that proof; learning halts at 1e30 or at the first number that is not finite.
+// The divergence guard: no one-step rule with step size in [0, 1] can leave the interval of values
+// that policies can earn, |Q| <= B = max(max |Q0|, R / (1 - discount)). A value beyond it is
+// reported with that proof; learning halts at 1e30 or at the first number that is not finite.
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,10 @@
 #pragma once
 // The given initial rewards rE of the rules that have them, laid out like the table.
 
+#include <string_view>
 #include <vector>
 
+#include "quoll/base/archive.hpp"
 #include "quoll/env/table.hpp"
 #include "quoll/learn/settings.hpp"
 
@@ -20,6 +22,14 @@ inline std::vector<double> initial_rewards_per_pair(const TabularSetup& setup, P
     }
   }
   return rewards;
+}
+
+/// One value per pair: a saved list of another length does not fit the table.
+inline void persist_per_pair(Archive& archive, std::string_view name, std::vector<double>& values) {
+  const std::size_t pairs = values.size();
+  archive(name, values);
+  if (values.size() != pairs) archive.fail("the saved table does not fit this world");
+  values.resize(pairs);
 }
 
 }  // namespace quoll

@@ -1,5 +1,5 @@
-// Q-learning. Watkins 1989; Watkins, Dayan 1992; Sutton, Barto 2018, equation 6.8. The lecture's formula
-// is the case step size 1 in a deterministic world.
+// Q-learning. Watkins 1989; Watkins, Dayan 1992; Sutton, Barto 2018, equation 6.8. The lecture's
+// formula is the case step size 1 in a deterministic world.
 //
 //   for each episode: s <- start()
 //     until s is an end or the episode is cut off:
@@ -44,8 +44,11 @@ std::vector<Update> replay_script(const TabularSetup& setup, std::span<const Upd
 }  // namespace
 
 const LearnerEntry q_learning_standard{
-    "q-learning", "standard",
-    "Q(s,a) += step_size * (r + discount * max Q(s',.) - Q(s,a)): Watkins' Q-learning", true, make,
+    "q-learning",
+    "standard",
+    "Q(s,a) += step_size * (r + discount * max Q(s',.) - Q(s,a)): Watkins' Q-learning",
+    true,
+    make,
     replay_script};
 
 }  // namespace quoll

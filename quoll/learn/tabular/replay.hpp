@@ -1,6 +1,6 @@
 #pragma once
-// A rule applied to given transitions instead of its own: for explaining, and for comparing two rules on
-// the same experience.
+// A rule applied to given transitions instead of its own: for explaining, and for comparing two
+// rules on the same experience.
 
 #include <algorithm>
 #include <vector>
@@ -23,10 +23,12 @@ std::vector<Update> replay(const TabularSetup& setup, std::span<const Update> sc
     const std::uint64_t pair = begin[update.state] + update.action;
     const auto row = q.begin() + static_cast<std::ptrdiff_t>(begin[update.next]);
     const auto row_end = q.begin() + static_cast<std::ptrdiff_t>(begin[update.next + 1]);
-    update.best_next = update.terminated ? 0.0 : double{*std::max_element(row, row_end)};
+    const bool over = update.terminated || row == row_end;
+    update.best_next = over ? 0.0 : double{*std::max_element(row, row_end)};
     update.old_value = double{q[pair]};
-    const Revision<Value> revision = revise(rule, setup.step_size, pair, q[pair], update.reward,
-                                            setup.discount, update.best_next, ++visits[pair], 0);
+    const Revision<Value> revision =
+        revise(rule, setup.step_size, pair, q[pair], update.reward, setup.discount,
+               update.best_next, ++visits[pair], nearest_rounding);
     q[pair] = revision.value;
     rule.learned(pair, double{revision.value});
     update.reward = revision.reward;

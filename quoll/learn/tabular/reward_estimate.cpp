@@ -5,8 +5,8 @@
 //   1   rE(s,a) := mean of the rewards observed for (s,a)
 //   2   QE(s,a) := rE(s,a) + gamma max_a' QE(s',a')
 //
-// QE -> the table; rE -> reward_; gamma -> discount; max QE(s',.) -> best_next. Right for random rewards
-// in worlds whose moves are deterministic.
+// QE -> the table; rE -> reward_; gamma -> discount; max QE(s',.) -> best_next. Right for random
+// rewards in worlds whose moves are deterministic.
 
 #include "quoll/learn/tabular/engine.hpp"
 #include "quoll/learn/tabular/initial_rewards.hpp"
@@ -36,7 +36,7 @@ struct RewardEstimate {
   void learned(std::uint64_t, double) {}
 
   double reward_estimate(std::uint64_t pair) const { return reward_[pair]; }
-  void persist(Archive& archive) { archive("reward_estimate", reward_); }
+  void persist(Archive& archive) { persist_per_pair(archive, "reward_estimate", reward_); }
 
  private:
   std::vector<double> reward_;
@@ -55,8 +55,11 @@ std::vector<Update> replay_script(const TabularSetup& setup, std::span<const Upd
 }  // namespace
 
 const LearnerEntry q_learning_reward_estimate{
-    "q-learning", "reward-estimate",
-    "rE = mean of the observed rewards; QE := rE + discount * max QE: the sound reading of rE", true,
-    make, replay_script};
+    "q-learning",
+    "reward-estimate",
+    "rE = mean of the observed rewards; QE := rE + discount * max QE: the sound reading of rE",
+    true,
+    make,
+    replay_script};
 
 }  // namespace quoll

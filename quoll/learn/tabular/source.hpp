@@ -1,6 +1,6 @@
 #pragma once
-// The three sources of experience of the tabular loop: a deterministic table, a stochastic table, and
-// any Environment behind one virtual call. The tables are in env/table.hpp.
+// The three sources of experience of the tabular loop: a deterministic table, a stochastic table,
+// and any Environment behind one virtual call. The tables are in env/table.hpp.
 
 #include <cmath>
 #include <cstdint>
@@ -18,8 +18,11 @@ struct TableSource {
   static constexpr bool rewards_known = true;
   Table table;
 
-  auto step(std::uint64_t pair, State, Action, std::uint64_t draw) const {
-    return table.step(pair, draw);
+  /// What the loop holds in registers: the table's pointers.
+  auto stepper() const {
+    return [view = table.view()](std::uint64_t pair, State, Action, std::uint64_t draw) {
+      return view.step(pair, draw);
+    };
   }
   template <class Visits>
   State start(StartStates& starts, Rng& rng, const Visits& visits) {
@@ -43,7 +46,12 @@ class EnvironmentSource {
   explicit EnvironmentSource(std::unique_ptr<Environment> environment)
       : environment_(std::move(environment)) {}
 
-  EnvironmentLanding step(std::uint64_t, State state, Action action, std::uint64_t) {
+  auto stepper() {
+    return [this](std::uint64_t, State state, Action action, std::uint64_t) {
+      return step(state, action);
+    };
+  }
+  EnvironmentLanding step(State state, Action action) {
     state_ = state;
     action_ = action;
     Experience now = columns();

@@ -1,9 +1,9 @@
 #pragma once
-// Watching for the point from which nothing changes any more. A counter per pair; all start again when
-// a value moves by more than the tolerance or a greedy set changes; stable when every reachable pair
-// was visited K times since. The movement of a pair is the mean of its undamped errors (target - old)
-// over K visits; with K = 1, tolerance 0 and step size 1 in a deterministic world, stability proves that
-// the table is the fixed point of its update.
+// Watching for the point from which nothing changes any more. A counter per pair; all start again
+// when a value moves by more than the tolerance or a greedy set changes; stable when every
+// reachable pair was visited K times since. The movement of a pair is the mean of its undamped
+// errors (target - old) over K visits; with K = 1, tolerance 0 and step size 1 in a deterministic
+// world, stability proves that the table is the fixed point of its update.
 
 #include <cmath>
 #include <cstdint>
@@ -17,8 +17,7 @@ namespace quoll {
 class Stability {
  public:
   Stability() = default;
-  Stability(const StableSetup& setup, std::uint64_t pairs)
-      : setup_(setup), required_(setup.pairs) {
+  Stability(const StableSetup& setup, std::uint64_t pairs) : setup_(setup), required_(setup.pairs) {
     if (setup.watch) marks_.resize(pairs);
   }
 
@@ -34,11 +33,14 @@ class Stability {
     Mark& mark = marks_[pair];
     if (mark.epoch != epoch_) mark = {epoch_, 0, 0.0f};
     mark.error += static_cast<float>(error);
-    if (++mark.visits % setup_.visits == 0) {
+    // K visits settle a pair; each K more test it again, without counting on for ever.
+    const bool again = ++mark.visits == 2 * setup_.visits;
+    if (again || mark.visits == setup_.visits) {
       const double mean = double{mark.error} / setup_.visits;
       if (!(std::fabs(mean) <= setup_.tolerance * scale)) return restart();
       mark.error = 0.0f;
-      settled_ += mark.visits == setup_.visits;
+      mark.visits = setup_.visits;
+      settled_ += !again;
     }
     return settled_ >= required_;
   }
