@@ -13,6 +13,11 @@
 #include <system_error>
 #include <utility>
 
+#if !defined(__wasi__)
+#include <dirent.h>
+#include <signal.h>
+#endif
+
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
@@ -142,6 +147,24 @@ Result<Target> target_of(const std::string& path) {
   return target;
 }
 
+/// Removes what processes that are no more left of their writes under this name.
+void remove_stale([[maybe_unused]] const std::string& folder,
+                  [[maybe_unused]] const std::string& begin) {
+#if !defined(__wasi__)
+  DIR* const entries = ::opendir(folder.c_str());
+  if (entries == nullptr) return;
+  while (const dirent* entry = ::readdir(entries)) {
+    const std::string_view name = entry->d_name;
+    if (!name.starts_with(begin) || !name.ends_with(".tmp")) continue;
+    const long process = std::strtol(entry->d_name + begin.size(), nullptr, 10);
+    if (process > 0 && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH) {
+      ::unlink((folder + "/" + entry->d_name).c_str());
+    }
+  }
+  ::closedir(entries);
+#endif
+}
+
 /// A new file beside `path` under a name no other process or thread uses; -1 with errno set.
 int open_temporary(const std::string& path, std::string& name) {
   static std::atomic<unsigned> used{0};
@@ -150,9 +173,16 @@ int open_temporary(const std::string& path, std::string& name) {
 #else
   const std::string process = std::to_string(::getpid());
 #endif
-  // A process killed here leaves its file behind, and process numbers return: hence several tries.
+  // A process killed here leaves its file behind: the next write to the same path removes it. The
+  // path is in the name, so that nobody else's are touched (another machine's processes may seem
+  // dead from here). Process numbers return: hence several tries.
+  char target[24];
+  std::snprintf(target, sizeof target, "%016llx-",
+                static_cast<unsigned long long>(XXH3_64bits(path.data(), path.size())));
+  const std::string begin = std::string(".quoll-") + target;
+  remove_stale(folder_of(path), begin);
   for (int attempt = 0; attempt < 1000; ++attempt) {
-    name = folder_of(path) + "/.quoll-" + process + "-" + std::to_string(++used) + ".tmp";
+    name = folder_of(path) + "/" + begin + process + "-" + std::to_string(++used) + ".tmp";
     const int number = open_file(name, O_WRONLY | O_CREAT | O_EXCL, 0666);
     if (number >= 0 || errno != EEXIST) return number;
   }
