@@ -1,0 +1,156 @@
+// One number over everything that must give the same bits on every machine: each learner with each
+// source, exploration and start; each solver; each world stepped. A change of it is a change of
+// results: tests/golden/signature.txt is edited in the same commit, on purpose.
+//
+//   quoll_signature              prints the number
+//   quoll_signature --parts      prints one for each part, to find what changed
+//   quoll_signature --check FILE compares; exit status 1 when it differs
+
+#include <bit>
+#include <cinttypes>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+#include "learn/worlds.hpp"
+#include "quoll/solve/solver.hpp"
+
+namespace quoll {
+namespace {
+
+using namespace learn_tests;
+
+struct Hash {
+  std::uint64_t value = 0;
+  void add(std::uint64_t bits) { value = mix(value + golden_gamma) ^ mix(bits); }
+  void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+  void add(std::string_view text) {
+    for (const char letter : text) add(std::uint64_t{static_cast<unsigned char>(letter)});
+  }
+};
+
+std::vector<World> the_worlds() {
+  std::vector<World> all{corridor(6),           star(),
+                         slippery(7),           lottery(),
+                         without_model(star()), without_model(slippery(7)),
+                         slippery(40, 1.0)};
+  for (const WorldEntry& entry : worlds()) {
+    if (Result<World> world = entry.make({})) all.push_back(std::move(*world));
+  }
+  return all;
+}
+
+std::uint64_t learned(const LearnerEntry& entry, const World& world, const std::string& explore,
+                      const std::string& start, const std::string& step_size) {
+  Hash hash;
+  for (const Precision precision : {Precision::single, Precision::twofold}) {
+    LearnSettings settings;
+    settings.method = entry.method;
+    settings.rule = entry.rule.empty() ? "standard" : entry.rule;
+    settings.explore = explore;
+    settings.start = start;
+    settings.step_size = step_size;
+    settings.precision = precision;
+    settings.until_stable = false;
+    const auto learner = make_learner(settings, world);
+    if (!learner) continue;  // a choice this learner or world does not have
+    const LearnProgress now = (*learner)->advance(2500, {});
+    hash.add(now.steps);
+    hash.add(now.episodes);
+    hash.add(now.return_sum);
+    const Estimates estimates = (*learner)->estimates();
+    for (const double q : estimates.q) hash.add(q);
+    for (const std::uint32_t visits : estimates.visits) hash.add(std::uint64_t{visits});
+    for (const double reward : estimates.reward_estimate) hash.add(reward);
+  }
+  return hash.value;
+}
+
+std::uint64_t solved(const SolverEntry& entry, const World& world) {
+  Hash hash;
+  SolveSettings settings;
+  settings.width = 1e-9;
+  const Result<Solution> solution = entry.make()->solve(*world.mdp, settings);
+  if (!solution) return 1;  // a kind of model it cannot do
+  for (const double bound : solution->lower) hash.add(bound);
+  for (const double bound : solution->upper) hash.add(bound);
+  for (const Action action : solution->policy) hash.add(std::uint64_t{action});
+  return hash.value;
+}
+
+std::uint64_t stepped(const World& world) {
+  Hash hash;
+  constexpr std::uint32_t lanes = 3;
+  const auto environment = world.make(lanes, 1);
+  std::vector<State> state(lanes), next(lanes);
+  std::vector<Action> action(lanes);
+  std::vector<Feedback> feedback(lanes);
+  std::vector<std::uint8_t> restart(lanes, 1);
+  Rng coin = stream(1, "signature");
+  Experience now{state, action, feedback, next, {}, {}};
+  for (int t = 0; t < 1000; ++t) {
+    environment->restart(restart, now);
+    for (std::uint32_t i = 0; i < lanes; ++i) {
+      action[i] = coin.below(std::max(environment->actions(state[i]), 1u));
+    }
+    environment->step(now);
+    for (std::uint32_t i = 0; i < lanes; ++i) {
+      hash.add(std::uint64_t{next[i]});
+      hash.add(feedback[i].reward);
+      hash.add(std::uint64_t{feedback[i].terminated} * 2 + feedback[i].truncated);
+      restart[i] = feedback[i].terminated || feedback[i].truncated;
+    }
+    state = next;
+  }
+  return hash.value;
+}
+
+std::uint64_t signature(bool parts) {
+  Hash all;
+  const auto part = [&](const std::string& name, std::uint64_t value) {
+    if (parts) std::printf("%016" PRIx64 "  %s\n", value, name.c_str());
+    all.add(value);
+  };
+  for (const World& world : the_worlds()) {
+    for (const LearnerEntry& entry : learners()) {
+      const std::string name = std::string(entry.method) + " " + std::string(entry.rule);
+      for (const std::string_view explore : exploration_names) {
+        part("learn " + world.name + " " + name + " --explore " + std::string(explore),
+             learned(entry, world, std::string(explore), "world", "auto"));
+      }
+      for (const std::string_view start : start_names) {
+        part("learn " + world.name + " " + name + " --start " + std::string(start),
+             learned(entry, world, "epsilon-greedy", std::string(start), "auto"));
+      }
+      for (const std::string step_size : {"1", "0.1", "1e-5", "1/N^0.8", "rescaled-linear"}) {
+        part("learn " + world.name + " " + name + " --step-size " + step_size,
+             learned(entry, world, "softmax", "world", step_size));
+      }
+    }
+    for (const SolverEntry& entry : solvers()) {
+      if (world.mdp) {
+        part("solve " + world.name + " " + std::string(entry.name), solved(entry, world));
+      }
+    }
+    part("step " + world.name, stepped(world));
+  }
+  return all.value;
+}
+
+}  // namespace
+}  // namespace quoll
+
+int main(int argc, char** argv) {
+  const bool parts = argc == 2 && std::strcmp(argv[1], "--parts") == 0;
+  char text[17];
+  std::snprintf(text, sizeof text, "%016" PRIx64, quoll::signature(parts));
+  std::puts(text);
+  if (argc != 3 || std::strcmp(argv[1], "--check") != 0) return 0;
+  std::string golden;
+  std::ifstream(argv[2]) >> golden;
+  if (golden == text) return 0;
+  std::printf("%s says %s: results have changed; if that is meant, write the new one there\n",
+              argv[2], golden.c_str());
+  return 1;
+}

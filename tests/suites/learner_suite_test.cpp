@@ -1,0 +1,247 @@
+// Properties of every learner of the registry with every source of experience.
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "../learn/worlds.hpp"
+#include "quoll/base/file.hpp"
+#include "quoll/experiment/run.hpp"
+#include "quoll/model/formats/format.hpp"
+#include "quoll/solve/solver.hpp"
+
+namespace quoll {
+namespace {
+
+using namespace learn_tests;
+
+// Padded and ragged deterministic tables, stochastic ones, and worlds that can only be acted in.
+std::vector<World> sources() {
+  return {adventure(),
+          star(),
+          slippery(5),
+          lottery(),
+          without_model(adventure()),
+          without_model(slippery(5))};
+}
+
+struct Way {
+  const char* explore;
+  const char* start;
+  const char* step_size;
+};
+constexpr Way ways[] = {{"uniform", "world", "auto"},
+                        {"epsilon-greedy", "uniform", "1/N^0.8"},
+                        {"softmax", "least-visited", "0.1"},
+                        {"ucb", "world", "1e-5"},
+                        {"greedy", "least-visited", "rescaled-linear"}};
+
+// Calls check(settings, world, name) for every learner x source x way that fits together.
+template <class Check>
+void for_all(const Check& check) {
+  for (const LearnerEntry& entry : learners()) {
+    for (const World& world : sources()) {
+      for (const Way& way : ways) {
+        if (!world.mdp && std::string(way.start) != "world") continue;
+        LearnSettings settings;
+        settings.method = entry.method;
+        settings.rule = entry.rule.empty() ? "standard" : entry.rule;
+        settings.explore = way.explore;
+        settings.start = way.start;
+        if (settings.rule == "standard") settings.step_size = way.step_size;
+        settings.episode_steps = 37;
+        check(settings, world,
+              settings.method + " " + settings.rule + ", " + world.name + ", " + way.explore);
+      }
+    }
+  }
+}
+
+TEST(Learners, SameSeedSameBits) {
+  for_all([](LearnSettings settings, const World& world, const std::string& name) {
+    settings.until_stable = false;
+    const auto left = learner(settings, world), right = learner(settings, world);
+    settings.seed = 2;
+    const auto other = learner(settings, world);
+    for (Learner* one : {left.get(), right.get(), other.get()}) one->advance(3000, {});
+    EXPECT_EQ(saved(*left), saved(*right)) << name;
+    EXPECT_NE(saved(*left), saved(*other)) << name;
+  });
+}
+
+TEST(Learners, ACutRunIsTheWholeRun) {
+  Rng rng = stream(5, "cuts");
+  for_all([&](const LearnSettings& settings, const World& world, const std::string& name) {
+    constexpr std::uint32_t steps = 700;
+    const auto whole = learner(settings, world);
+    whole->advance(steps, {});
+    const auto expected = saved(*whole);
+    for (int i = 0; i < 20; ++i) {
+      const std::uint32_t cut = rng.below(steps + 1);
+      const auto first = learner(settings, world);
+      first->advance(cut, {});
+      const auto bytes = saved(*first);
+      const auto second = learner(settings, world);
+      Archive archive{std::span<const std::byte>(bytes)};
+      archive("learner", *second);
+      ASSERT_TRUE(archive.good() && archive.at_end()) << name << archive.error().expected;
+      ASSERT_EQ(saved(*second), bytes) << name;
+      second->advance(steps - std::min<std::uint64_t>(steps, second->progress().steps), {});
+      ASSERT_EQ(saved(*second), expected) << name << " cut at " << cut;
+    }
+  });
+}
+
+TEST(Learners, ChunksAndLogsChangeNoBit) {
+  Rng rng = stream(6, "chunks");
+  for_all([&](const LearnSettings& settings, const World& world, const std::string& name) {
+    constexpr std::uint64_t steps = 2000;
+    const auto whole = learner(settings, world), parts = learner(settings, world);
+    whole->advance(steps, {});
+    std::vector<Update> log(64);
+    LearnProgress now = parts->progress();
+    while (now.steps < steps && now.halt == LearnProgress::Halt::none) {
+      const std::uint64_t chunk = std::min<std::uint64_t>(steps - now.steps, rng.below(100));
+      now = parts->advance(chunk, rng.below(2) == 0 ? std::span<Update>() : std::span(log));
+    }
+    EXPECT_EQ(saved(*whole), saved(*parts)) << name;
+  });
+}
+
+TEST(Learners, WatchingForStabilityChangesNoValue) {
+  for_all([](LearnSettings settings, const World& world, const std::string& name) {
+    const auto watching = learner(settings, world);
+    const std::uint64_t steps = watching->advance(2000, {}).steps;
+    settings.until_stable = false;
+    const auto plain = learner(settings, world);
+    plain->advance(steps, {});
+    EXPECT_EQ(watching->estimates().q, plain->estimates().q) << name;
+    EXPECT_EQ(watching->estimates().visits, plain->estimates().visits) << name;
+  });
+}
+
+// Without noise a table of floats ends at Q* rounded to float, and is found stable there. Under
+// noise 2,000,000 steps of the default step size come within 2 % of max(1, |Q*|); the fixed seed
+// makes it sure, other seeds of these five worlds stay below 1 %.
+TEST(Learners, SoundRulesReachTheOptimalValues) {
+  for (const LearnerEntry& entry : learners()) {
+    if (!entry.sound) continue;
+    for (const World& world : {adventure(), corridor(6), star(), lottery(), slippery(4)}) {
+      // A whole step towards a random successor is no mean over successors.
+      if (entry.rule == "reward-estimate" && world.name == "slippery") continue;
+      SolveSettings exactly;
+      exactly.width = 1e-12;
+      const auto solution = solve(*world.mdp, exactly);
+      ASSERT_TRUE(solution);
+      for (const World& source : {world, without_model(world)}) {
+        LearnSettings settings;
+        settings.method = entry.method;
+        settings.rule = entry.rule.empty() ? "standard" : entry.rule;
+        settings.until_stable = world.traits.deterministic;
+        const auto one = learner(settings, source);
+        const LearnProgress now = one->advance(2'000'000, {});
+        if (world.traits.deterministic) {
+          EXPECT_EQ(now.halt, LearnProgress::Halt::stable) << source.name;
+        }
+        const Estimates estimates = one->estimates();
+        for (State s = 0; s < world.mdp->states(); ++s) {
+          if (world.mdp->terminal(s)) continue;
+          for (std::uint64_t c = world.mdp->choice_begin(s); c < world.mdp->choice_end(s); ++c) {
+            const double exact = q_star(*world.mdp, solution->lower, c, world.discount);
+            const double learned =
+                estimates.q[estimates.row_begin[s] + c - world.mdp->choice_begin(s)];
+            const double bound = world.traits.deterministic ? 1e-6 : 0.02;
+            EXPECT_NEAR(learned, exact, bound * std::max(1.0, std::fabs(exact)))
+                << settings.rule << ", " << source.name << ", " << world.mdp->state_name(s) << " "
+                << world.mdp->action_name(c);
+          }
+        }
+      }
+    }
+  }
+}
+
+// A file of its own, removed at the end.
+struct Scratch {
+  std::string path;
+  explicit Scratch(const std::string& name)
+      : path(testing::TempDir() + "quoll-" + std::to_string(getpid()) + "-" + name) {}
+  ~Scratch() { std::remove(path.c_str()); }
+};
+
+// The bytes of every seed, the time it took excepted.
+std::vector<std::vector<std::byte>> contents(Run& run) {
+  std::vector<std::vector<std::byte>> all;
+  for (Training& training : run.trainings()) {
+    all.push_back(saved(training.learner()));
+    Archive curve;
+    LearningCurve copy = training.curve();
+    curve("curve", copy);
+    all.push_back(curve.bytes());
+  }
+  return all;
+}
+
+RunSettings run_settings(std::uint64_t seeds, std::uint64_t steps) {
+  RunSettings settings;
+  settings.learn.explore = "epsilon-greedy";
+  settings.learn.until_stable = false;
+  settings.seeds = seeds;
+  settings.steps = steps;
+  return settings;
+}
+
+TEST(Runs, ResumedFromAFileAreTheWholeRun) {
+  const Scratch world_file("slippery.toml"), run_file("run.quoll");
+  const auto text = write_toml(*slippery(6).mdp);
+  ASSERT_TRUE(text);
+  ASSERT_TRUE(write_file(world_file.path, *text));
+  Rng rng = stream(8, "cuts");
+  for (const std::string& name : {std::string("adventure"), world_file.path}) {
+    const auto world = find_world(name);
+    ASSERT_TRUE(world);
+    RunSettings settings = run_settings(2, 5000);
+    auto whole = Run::start(settings, {name, {}}, *world, {});
+    ASSERT_TRUE(whole);
+    EXPECT_TRUE(whole->advance(settings, 0.0, {}, {}));
+    for (int i = 0; i < 20; ++i) {
+      RunSettings part = settings;
+      part.steps = 1 + rng.below(4999);
+      auto first = Run::start(part, {name, {}}, *world, {});
+      ASSERT_TRUE(first);
+      first->advance(part, 0.0, {}, {});
+      ASSERT_TRUE(first->save(run_file.path));
+      auto second = Run::load(run_file.path, false);
+      ASSERT_TRUE(second) << message(second.error());
+      EXPECT_FALSE(second->settings().force);
+      EXPECT_TRUE(second->advance(settings, 0.0, {}, {}));
+      ASSERT_EQ(contents(*second), contents(*whole)) << name << " cut at " << part.steps;
+    }
+  }
+}
+
+TEST(Runs, ThreadsAndPausesChangeNoBit) {
+  const World world = slippery(6);
+  RunSettings settings = run_settings(6, 100'000);
+  std::vector<std::vector<std::byte>> expected;
+  for (const unsigned threads : {1u, 4u}) {
+    for (const double pause : {0.0, 1e-9}) {
+      auto run = Run::start(settings, {"slippery", {}}, world, {});
+      ASSERT_TRUE(run);
+      run->set_threads(threads);
+      int calls = 1;
+      while (!run->advance(settings, pause, {}, {})) ++calls;
+      EXPECT_EQ(calls > 1, pause > 0.0);
+      if (expected.empty()) expected = contents(*run);
+      EXPECT_EQ(contents(*run), expected) << threads << " threads";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace quoll
