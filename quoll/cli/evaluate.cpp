@@ -84,14 +84,19 @@ Sampled sample(const Evaluated& of, const EvaluationSettings& asked) {
   for (std::uint64_t i = 0; i < blocks; ++i) {
     const std::uint64_t count = asked.episodes / blocks + (i < asked.episodes % blocks ? 1 : 0);
     const Played part = play(of.world, policy, count, asked.seed + i, of.discount, cut);
-    const double share = static_cast<double>(count) / static_cast<double>(asked.episodes);
+    const auto weight = static_cast<double>(count);
     sampled.played.episodes += count;
-    sampled.played.mean += share * part.mean;
-    sampled.played.mean_discounted += share * part.mean_discounted;
-    sampled.played.mean_steps += share * part.mean_steps;
-    sampled.played.ended += share * part.ended;
+    sampled.played.mean += weight * part.mean;
+    sampled.played.mean_discounted += weight * part.mean_discounted;
+    sampled.played.mean_steps += weight * part.mean_steps;
+    sampled.played.ended += weight * part.ended;
     means.push_back(part.mean);
   }
+  const auto all = static_cast<double>(asked.episodes);
+  sampled.played.mean /= all;
+  sampled.played.mean_discounted /= all;
+  sampled.played.mean_steps /= all;
+  sampled.played.ended /= all;
   sampled.statistics = statistics(means);
   return sampled;
 }

@@ -151,8 +151,7 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    const CLI::App* verb = chosen_verb(app);
-    return print((verb ? verb : &app)->help()) ? done : user_error;
+    return print(app.help()) ? done : user_error;
   } catch (const CLI::Success& success) {
     return print(std::string(success.what()) + "\n") ? done : user_error;
   } catch (const CLI::ParseError& error) {
