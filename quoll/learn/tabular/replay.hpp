@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "quoll/env/table.hpp"
 #include "quoll/learn/learner.hpp"
 #include "quoll/learn/tabular/rule.hpp"
 
