@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 #include "quoll/base/file.hpp"
 #include "quoll/base/text.hpp"
@@ -57,7 +58,9 @@ Result<std::vector<std::string>> origin(const Run& run, const JudgedRun& judged)
                                   : *judgement.optimal ? "yes"
                                                        : "no";
   lines.push_back(fmt::format("Optimal: {} ({}).", answer, judgement.proof));
-  if (judged.verdict.accepted) {
+  if (!std::isfinite(judgement.regret)) {
+    lines.push_back("No certificate: what this policy can lose has no bound.");
+  } else if (judged.verdict.accepted) {
     lines.push_back(fmt::format("Certified: no state reachable from its starts loses more than {}.",
                                 shortest(judgement.regret)));
   } else {

@@ -146,7 +146,7 @@ std::string interval_text(const Interval& interval) {
 }
 
 std::string time_text(double seconds) {
-  return seconds < 1.0 ? fmt::format("{:.2g} ms", 1000 * seconds) : duration_text(seconds);
+  return seconds < 1.0 ? fmt::format("{:.3g} ms", 1000 * seconds) : duration_text(seconds);
 }
 
 std::string verdict(const Solved& solved) {

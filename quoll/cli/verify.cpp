@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
 #include "quoll/cli/judged_run.hpp"
@@ -79,7 +81,9 @@ std::string verify_text(const Run& run, const JudgedRun& judged) {
                         : *judgement.optimal ? "yes"
                                              : "no",
                         judgement.proof);
-    text += fmt::format("; no state loses more than {}", number_text(judgement.regret));
+    text += std::isfinite(judgement.regret)
+                ? "; no state loses more than " + number_text(judgement.regret)
+                : std::string("; what it can lose has no bound");
     if (judgement.regret > 0.0) {
       text += " (at " + run.world().mdp->state_name(judgement.worst) + ")";
     }
