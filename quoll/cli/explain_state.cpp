@@ -16,6 +16,7 @@ namespace quoll::cli {
 namespace {
 
 constexpr std::size_t longest_way = 20;  // moves written out
+constexpr std::size_t most_terms = 10;   // of a sum
 
 struct StateAnswer {
   const Mdp* mdp = nullptr;
@@ -57,9 +58,30 @@ Way way_on(const StateAnswer& answer) {
   return way;
 }
 
-std::string power_text(double discount, std::size_t power) {
-  if (discount == 1.0 || power == 0) return "";
-  return number_text(discount) + (power > 1 ? "^" + std::to_string(power) : "") + " * ";
+// "0 + 0.8 * 0 + 0.8^2 * 100", or at discount 1, where only how often counts, "13 * (-1) + 9".
+std::string sum_text(const std::vector<double>& rewards, double discount) {
+  std::string sum;
+  if (discount == 1.0) {
+    std::size_t terms = 0;
+    for (std::size_t i = 0; i < rewards.size();) {
+      if (++terms > most_terms) return sum + " + ...";
+      std::size_t end = i;
+      while (end < rewards.size() && rewards[end] == rewards[i]) ++end;
+      sum += (i > 0 ? " + " : "") + (end - i > 1 ? grouped(end - i) + " * " : "") +
+             factor_text(rewards[i]);
+      i = end;
+    }
+    return sum;
+  }
+  for (std::size_t i = 0; i < rewards.size() && i < most_terms; ++i) {
+    if (i == 0) {
+      sum = number_text(rewards[0]);
+    } else {
+      sum += fmt::format(" + {}{} * {}", number_text(discount),
+                         i > 1 ? "^" + std::to_string(i) : "", factor_text(rewards[i]));
+    }
+  }
+  return rewards.size() > most_terms ? sum + " + ..." : sum;
 }
 
 std::string way_text(const StateAnswer& answer) {
@@ -67,29 +89,29 @@ std::string way_text(const StateAnswer& answer) {
   if (!mdp.deterministic() || mdp.terminal(answer.state)) return "";
   const Way way = way_on(answer);
   const std::size_t shown = std::min(way.choices.size(), longest_way);
-  std::string path = mdp.state_name(way.states[0]), sum;
+  std::string path = mdp.state_name(way.states[0]);
+  std::vector<double> rewards;
   double total = 0.0, weight = 1.0;
   for (std::size_t i = 0; i < way.choices.size(); ++i) {
     const double reward = mdp.reward(way.choices[i]);
+    rewards.push_back(reward);
     total += weight * reward;
     weight *= answer.discount;
     if (i >= shown) continue;
     path += fmt::format(" -{}-> {}", mdp.action_name(way.choices[i]),
                         mdp.state_name(way.states[i + 1]));
-    sum += (i > 0 ? " + " : "") + power_text(answer.discount, i) +
-           (i > 0 ? factor_text(reward) : number_text(reward));
   }
   if (way.choices.size() > shown) {
     path += fmt::format(" ... {} more moves to {}", grouped(way.choices.size() - shown),
                         mdp.state_name(way.states.back()));
-    sum += " + ...";
   }
   std::string text = "The way on:  " + path + (way.repeats ? ", and so on for ever" : "") + "\n";
   if (way.repeats) return text;
-  return text + "which earns  " + sum + " = " + number_text(total) + "\n";
+  return text + "which earns  " + sum_text(rewards, answer.discount) + " = " + number_text(total) +
+         "\n";
 }
 
-// "0 + 0.8 * V*(CAVE) 100", or the mean over the outcomes.
+// "0 + 0.8 * 100 [CAVE]", or the mean over the outcomes.
 std::string sum_text(const StateAnswer& answer, std::uint64_t choice) {
   const Mdp& mdp = *answer.mdp;
   const std::uint64_t first = mdp.outcome_begin(choice), end = mdp.outcome_end(choice);
@@ -97,7 +119,7 @@ std::string sum_text(const StateAnswer& answer, std::uint64_t choice) {
   for (std::uint64_t o = first; o < end; ++o) {
     const double value = mdp.terminal(mdp.next(o)) ? 0.0 : answer.value[mdp.next(o)];
     const std::string one =
-        fmt::format("{} + {} * {} {}", number_text(mdp.reward(choice, o)),
+        fmt::format("{} + {} * {} [{}]", number_text(mdp.reward(choice, o)),
                     number_text(answer.discount), factor_text(value), mdp.state_name(mdp.next(o)));
     if (end - first == 1) return one;
     text +=

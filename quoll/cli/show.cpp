@@ -62,10 +62,9 @@ std::string q_text(const Exhibit& exhibit, bool all) {
 }
 
 // Every move, one line per state: "HALL  To-CAVE -> CAVE, To-POOL -> POOL".
-std::string moves_text(const Mdp& mdp, bool all) {
+std::string moves_text(const Mdp& mdp) {
   TextTable table({{"state"}, {"moves"}});
-  const std::uint64_t shown = all ? mdp.states() : std::min<std::uint64_t>(mdp.states(), 20);
-  for (State s = 0; s < shown; ++s) {
+  for (State s = 0; s < mdp.states(); ++s) {
     std::string moves = mdp.terminal(s) ? "(end)" : "";
     for (std::uint64_t c = mdp.choice_begin(s); !mdp.terminal(s) && c < mdp.choice_end(s); ++c) {
       moves += (moves.empty() ? "" : ", ") + mdp.action_name(c) + " ->";
@@ -80,11 +79,7 @@ std::string moves_text(const Mdp& mdp, bool all) {
     }
     table.row({mdp.state_name(s), std::move(moves)});
   }
-  std::string text = table.text();
-  if (shown < mdp.states()) {
-    text += fmt::format("... and {} more states (use --all)\n", grouped(mdp.states() - shown));
-  }
-  return text;
+  return table.text();
 }
 
 // The state's value and its best moves.
@@ -109,23 +104,25 @@ Result<std::string> terminal_text(const Exhibit& exhibit, const std::string& kin
     return text;
   }
   if (kind == "map" || (kind == "policy" && exhibit.mdp->layout())) {
-    const GridView view = grid_view(exhibit, true);
+    GridView view = grid_view(exhibit, true);
     const Result<std::string> arrows = grid_policy_text(view, style);
     if (!arrows || kind == "policy") return arrows;
+    if (exhibit.value.empty()) return arrows;
+    view.title = "values";
     const Result<std::string> heat = grid_heat_text(view, style);
     if (!heat) return heat;
     return *arrows + "\n" + *heat;
   }
   if (kind == "policy") return text + policy_table(exhibit, all);
-  text += q_text(exhibit, all);
-  if (kind == "q") return text;
+  if (kind == "q") return text + q_text(exhibit, all);
   if (exhibit.mdp->states() > graph_states) {
     GraphView view;
     view.mdp = exhibit.mdp;
     view.world = world;
     return graph_svg(view).error();
   }
-  return text + "\n" + moves_text(*exhibit.mdp, true) +
+  if (!exhibit.q.empty()) text += q_text(exhibit, true) + "\n";
+  return text + moves_text(*exhibit.mdp) +
          fmt::format("\nThe picture: quoll show {} -o {}.svg\n", world, exhibit.name);
 }
 
@@ -209,8 +206,9 @@ Exit show(const ShowOptions& options) {
   const Result<double> discount = discount_of(options.discount, world->discount);
   if (!discount) return fail(discount.error());
   const Result<Exhibit> exhibit = exact_exhibit(*world, *discount);
-  if (!exhibit) return fail(exhibit.error());
-  return present(*exhibit, options, *kind);
+  if (exhibit) return present(*exhibit, options, *kind);
+  if (*kind != "graph" && *kind != "map") return fail(exhibit.error());
+  return present(bare_exhibit(*world, message(exhibit.error())), options, *kind);
 }
 
 }  // namespace

@@ -29,6 +29,9 @@ struct Exhibit {
 /// The exact solution of a model.
 Result<Exhibit> exact_exhibit(const World& world, double discount);
 
+/// A world without values, and why there are none.
+Exhibit bare_exhibit(const World& world, const std::string& why);
+
 /// The values of a run's first seed, and its curves.
 Exhibit learned_exhibit(const Run& run);
 

@@ -78,6 +78,14 @@ Result<Exhibit> exact_exhibit(const World& world, double discount) {
   return exhibit;
 }
 
+Exhibit bare_exhibit(const World& world, const std::string& why) {
+  Exhibit exhibit;
+  exhibit.name = world.name;
+  exhibit.mdp = world.mdp.get();
+  exhibit.title = world.name + " without values: " + why;
+  return exhibit;
+}
+
 Exhibit learned_exhibit(const Run& run) {
   const World& world = run.world();
   Exhibit exhibit;
