@@ -5,20 +5,21 @@
 #include <quoll/quoll.hpp>
 
 struct Courier {
+  static constexpr int full = 12;  // steps
   struct Position {
-    int house = 0, battery = 8;
+    int house = 0, battery = full;
   };
 
-  quoll::Spaces spaces() const { return {.actions = 3, .states = 10 * 9}; }
+  quoll::Spaces spaces() const { return {.actions = 3, .states = 10 * (full + 1)}; }
 
-  Position start(auto& dice) const { return {static_cast<int>(dice.below(10)), 8}; }
+  Position start(auto& dice) const { return {static_cast<int>(dice.below(10)), full}; }
 
   // 0 = left, 1 = right, 2 = load the battery, which works at house 0 only. Wind may take a step
   // away.
   quoll::Feedback step(Position& at, quoll::Action action, auto& dice) const {
     const bool wind = dice.uniform() < 0.1;
     if (action == 2) {
-      if (at.house == 0) at.battery = 8;
+      if (at.house == 0) at.battery = full;
       return {-1.0, false, false};
     }
     --at.battery;
@@ -29,7 +30,7 @@ struct Courier {
   }
 
   quoll::State number(const Position& at) const {
-    return static_cast<quoll::State>(at.house * 9 + at.battery);
+    return static_cast<quoll::State>(at.house * (full + 1) + at.battery);
   }
 };
 
@@ -46,7 +47,7 @@ int main() {
   const Courier courier;
   const char* const names[] = {"left", "right", "load"};
   for (const int house : {0, 4, 8}) {
-    const quoll::Action action = learned.policy()(courier.number({house, 8}));
+    const quoll::Action action = learned.policy()(courier.number({house, Courier::full}));
     std::printf("house %d, full battery: %s\n", house,
                 action == quoll::no_action ? "never been there" : names[action]);
   }

@@ -1,0 +1,174 @@
+#include "quoll/experiment/run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "../learn/worlds.hpp"
+#include "quoll/base/file.hpp"
+
+namespace quoll {
+namespace {
+
+using namespace learn_tests;
+
+using OneRun = Run;  // inside a test, Run is a member of the test
+
+RunSettings limited(std::uint64_t steps) {
+  RunSettings settings;
+  settings.learn.until_stable = false;
+  settings.steps = steps;
+  return settings;
+}
+
+Run started(const World& world, const RunSettings& settings) {
+  Result<Run> run = OneRun::start(settings, {world.name, {}}, world, {});
+  EXPECT_TRUE(run) << (run ? "" : message(run.error()));
+  return std::move(*run);
+}
+
+TEST(Runs, StopsAtExactlyTheStepsAskedFor) {
+  for (const std::uint64_t steps : {1, 63, 64, 65, 1000, 70'000}) {
+    OneRun run = started(adventure(), limited(steps));
+    EXPECT_TRUE(run.advance(limited(steps), 0.0, {}, {}));
+    EXPECT_EQ(run.trainings()[0].learner().progress().steps, steps);
+    EXPECT_EQ(run.trainings()[0].stop(), Stop::steps);
+    run.advance(limited(steps), 0.0, {}, {});
+    run.advance(limited(1), 0.0, {}, {});
+    EXPECT_EQ(run.trainings()[0].learner().progress().steps, steps);
+  }
+}
+
+TEST(Runs, StopsWithTheStepThatEndsTheLastEpisode) {
+  RunSettings settings = limited(0);
+  settings.episodes = 25;
+  OneRun run = started(adventure(), settings);
+  run.advance(settings, 0.0, {}, {});
+  const LearnProgress now = run.trainings()[0].learner().progress();
+  EXPECT_EQ(now.episodes, 25u);
+  EXPECT_EQ(run.trainings()[0].stop(), Stop::episodes);
+  // One step less would have been one episode less.
+  OneRun shorter = started(adventure(), limited(now.steps - 1));
+  shorter.advance(limited(now.steps - 1), 0.0, {}, {});
+  EXPECT_EQ(shorter.trainings()[0].learner().progress().episodes, 24u);
+}
+
+TEST(Runs, WithoutALimitStopsWhenStableWithTheProvedOptimum) {
+  RunSettings settings;
+  settings.seeds = 3;
+  OneRun run = started(adventure(), settings);
+  run.advance(settings, 0.0, {}, {});
+  const RunResult result = run.result(true);
+  ASSERT_TRUE(result.exact);
+  ASSERT_EQ(result.seeds.size(), 3u);
+  for (const SeedResult& seed : result.seeds) {
+    EXPECT_EQ(seed.stop, Stop::stable);
+    ASSERT_TRUE(seed.optimality && seed.optimality->optimal);
+    EXPECT_TRUE(*seed.optimality->optimal);
+    EXPECT_EQ(seed.played.mean, 100.0);
+  }
+  EXPECT_EQ(result.seeds[2].seed, 3u);
+  EXPECT_NE(result.seeds[0].steps, result.seeds[1].steps);
+}
+
+TEST(Runs, GivesUpOnStabilityAfterTheBudget) {
+  EXPECT_EQ(default_budget(adventure()), 1'000'000u);
+  RunSettings settings;
+  settings.learn.explore = "greedy";  // never tries what once looked worse
+  settings.learn.ties = Ties::first;
+  settings.learn.episode_steps = 5;
+  OneRun run = started(corridor(20), settings);
+  run.advance(settings, 0.0, {}, {});
+  EXPECT_EQ(run.trainings()[0].stop(), Stop::budget);
+  EXPECT_EQ(run.trainings()[0].learner().progress().steps, 1'000'000u);
+}
+
+TEST(Runs, CanBeInterruptedAndTold) {
+  OneRun run = started(adventure(), limited(1'000'000));
+  std::uint64_t seen = 0;
+  run.advance(limited(1'000'000), 0.0,
+              [&](const RunProgress& now) {
+                seen = now.steps;
+                return now.steps < 1000;
+              },
+              {});
+  EXPECT_EQ(run.trainings()[0].stop(), Stop::interrupted);
+  EXPECT_GE(seen, 1000u);
+  EXPECT_LT(seen, 2000u);
+  EXPECT_EQ(run.trainings()[0].learner().progress().steps, seen);
+}
+
+TEST(Runs, RecordsEachBinOnce) {
+  OneRun run = started(adventure(), limited(64 * 10));
+  std::uint64_t last = 0, returns = 0;
+  run.advance(limited(64 * 10), 0.0, {}, [&](const Record& record) {
+    if (record.name != "episodic_return") return;
+    EXPECT_EQ(record.step % 64, 0u);
+    EXPECT_GT(record.step, last);
+    EXPECT_EQ(record.value, 100.0);
+    last = record.step;
+    ++returns;
+  });
+  EXPECT_EQ(returns, 10u);
+}
+
+TEST(Runs, RefusesWhatIsNotDefined) {
+  MdpBuilder builder(1.0);
+  builder.move("A", "round", "A", 1.0).move("A", "end", "END");
+  const World gaining = to_world("gaining", *builder.build());
+  const auto refused = OneRun::start({}, {"gaining", {}}, gaining, {});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(message(refused.error()).find("A"), std::string::npos);
+  RunSettings forced;
+  forced.force = true;
+  EXPECT_TRUE(OneRun::start(forced, {"gaining", {}}, gaining, {}));
+  RunSettings wrong;
+  wrong.learn.explore = "greedly";
+  const auto misspelt = OneRun::start(wrong, {"adventure", {}}, adventure(), {});
+  ASSERT_FALSE(misspelt);
+  EXPECT_EQ(misspelt.error().nearest, "greedy");
+  EXPECT_FALSE(OneRun::start({}, {"adventure", {}}, adventure(), {1.0, 2.0}));
+}
+
+TEST(Runs, LearnsInAWorldWithoutAModel) {
+  RunSettings settings = limited(20'000);
+  OneRun run = started(without_model(adventure()), settings);
+  run.advance(settings, 0.0, {}, {});
+  const RunResult result = run.result(true);
+  EXPECT_FALSE(result.exact);
+  EXPECT_FALSE(result.no_exact.empty());
+  EXPECT_FALSE(result.seeds[0].optimality);
+  EXPECT_EQ(result.seeds[0].played.mean, 100.0);
+}
+
+// A run file as somebody might forge it: right checksum, wrong content. Each byte of the content is
+// changed in turn; whatever loads must still be able to go on.
+TEST(Runs, AForgedFileIsRefusedOrHarmless) {
+  const std::string path = testing::TempDir() + "quoll-run-" + std::to_string(getpid());
+  RunSettings settings = limited(100);
+  OneRun run = started(adventure(), settings);
+  run.advance(settings, 0.0, {}, {});
+  ASSERT_TRUE(run.save(path));
+  const auto content = load_archive(path, "run");
+  ASSERT_TRUE(content);
+  for (std::size_t i = 0; i < content->size(); i += 7) {
+    auto forged = *content;
+    forged[i] ^= std::byte{0x81};
+    std::remove(path.c_str());
+    ASSERT_TRUE(save_archive(path, "run", forged));
+    auto loaded = OneRun::load(path, i % 2 == 0);
+    if (!loaded) {
+      EXPECT_EQ(loaded.error().file, path);
+      EXPECT_FALSE(loaded.error().expected.empty());
+      continue;
+    }
+    int chunks = 0;
+    loaded->advance(limited(200), 0.0, [&](const RunProgress&) { return ++chunks < 100; }, {});
+  }
+  std::remove(path.c_str());
+}
+
+}  // namespace
+}  // namespace quoll
