@@ -78,9 +78,10 @@ void own_updates(Lesson& lesson, std::uint64_t steps) {
     if (end != log.end()) log.erase(end + 1, log.end());
   }
   lesson.updates = std::move(log);
-  lesson.origin =
-      fmt::format("The first {} of a run, seed {}, actions {}, starts {}:", lesson.updates.size(),
-                  lesson.settings.seed, lesson.settings.explore, lesson.settings.start);
+  lesson.origin = fmt::format(
+      "The first {} of a run, seed {}, actions {}, starts {}:",
+      lesson.updates.size() == 1 ? "step" : std::to_string(lesson.updates.size()) + " steps",
+      lesson.settings.seed, lesson.settings.explore, lesson.settings.start);
 }
 
 Result<Lesson> lesson_of(const ExplainOptions& options, const World& world) {
