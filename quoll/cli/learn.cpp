@@ -52,6 +52,21 @@ Result<void> agrees(const LearnOptions& options, const Run& run) {
     return Error{"--resume", 0, 0,
                  "the saved run learns " + run.source().name + ", not " + options.world.name, ""};
   }
+  const Result<WorldSource> source = options.world.source();
+  if (!source) return source.error();
+  if (!source->parameters.empty() && source->parameters != run.source().parameters) {
+    const auto words = [](const WorldSource& one) {
+      std::string text;
+      for (const auto& [key, value] : one.parameters) {
+        text += (text.empty() ? "" : " ") + key + "=" + value;
+      }
+      return text.empty() ? std::string("none") : text;
+    };
+    return Error{"--with", 0, 0,
+                 "the saved run has " + words(run.source()) + ", not " + words(*source) +
+                     "; a resumed run keeps its world",
+                 ""};
+  }
   return {};
 }
 

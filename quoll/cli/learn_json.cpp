@@ -146,6 +146,12 @@ std::string learn_json(const Run& run, const RunResult& result, bool all,
     json.value(first.optimality->regret);
   else
     json.null();
+  json.key("optimal_states");
+  if (judged) {
+    json.value(first.optimal_states);
+  } else {
+    json.null();
+  }
   json.key("unreachable");
   if (first.optimality)
     json.value(first.optimality->unreachable);

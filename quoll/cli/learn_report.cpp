@@ -128,6 +128,12 @@ std::string verdict(const Run& run, const RunResult& result, const SeedResult& s
     text += fmt::format(" Regret at most {} at {}.", number_text(judged.regret),
                         run.world().mdp->state_name(judged.worst));
   }
+  if (judged.optimal != true) {
+    text += fmt::format(" {:.2f} % of {} states have an optimal action.",
+                        100.0 * static_cast<double>(seed.optimal_states) /
+                            static_cast<double>(std::max<std::uint64_t>(1, seed.judged_states)),
+                        grouped(seed.judged_states));
+  }
   if (judged.unreachable > 0) {
     text += fmt::format(" {} states cannot be reached from the start and are left out.",
                         grouped(judged.unreachable));

@@ -12,6 +12,7 @@
 
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
+#include "quoll/cli/faces.hpp"
 
 namespace quoll::cli {
 namespace {
@@ -77,8 +78,7 @@ Exit explain_parse_error(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 // The first word must be a verb: said here, because a parser would complain about something else.
-bool first_word_is_wrong(int argc, char** argv, Exit& status) {
-  const std::string word = argv[1];
+bool first_word_is_wrong(const std::string& word, Exit& status) {
   if (word == "-h" || word == "--help" || word == "--version") return false;
   if (!word.empty() && word.front() == '-') {
     status = fail({"", 0, 0, "a verb expected before '" + word + "'; see 'quoll --help'", ""});
@@ -146,8 +146,15 @@ int run(int argc, char** argv) {
     print(app.help());
     return user_error;
   }
+  const std::string first = argv[1];
+  if (first == "--man") return print(manual_page()) ? done : user_error;
+  if (first == "--completion") {
+    const std::string shell = argc > 2 ? argv[2] : "";
+    if (shell == "bash") return print(bash_completion()) ? done : user_error;
+    return fail({"--completion", 0, 0, "bash expected, not '" + shell + "'", ""});
+  }
   Exit wrong = done;
-  if (first_word_is_wrong(argc, argv, wrong)) return wrong;
+  if (first_word_is_wrong(first, wrong)) return wrong;
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -36,6 +36,17 @@ Result<void> defined_without_discount(const World& world, double discount) {
                ""};
 }
 
+void count_optimal(const Mdp& mdp, const Solution& exact, const std::vector<State>& from,
+                   SeedResult& seed) {
+  const std::vector<bool> reached = reachable(mdp, from);
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (!reached[s] || mdp.terminal(s)) continue;
+    ++seed.judged_states;
+    const std::vector<Action> best = optimal_actions(mdp, exact, s);
+    seed.optimal_states += std::find(best.begin(), best.end(), seed.policy[s]) != best.end();
+  }
+}
+
 std::uint64_t world_digest(const World& world) {
   return world.mdp ? digest(*world.mdp) : 0;
 }
@@ -153,18 +164,16 @@ RunResult Run::result(bool solve_too) const {
     const Training& training = trainings_[i];
     const LearnProgress progress = training.learner().progress();
     SeedResult& seed = result.seeds[i];
-    seed = {training.seed(),
-            progress.steps,
-            progress.episodes,
-            training.seconds(),
-            training.stop(),
-            progress.impossible,
-            {},
-            {},
-            {}};
+    seed.seed = training.seed();
+    seed.steps = progress.steps;
+    seed.episodes = progress.episodes;
+    seed.seconds = training.seconds();
+    seed.stop = training.stop();
+    seed.impossible = progress.impossible;
     seed.policy = greedy_policy(training.learner().estimates());
     if (mdp && result.exact) {
       seed.optimality = judge(*mdp, *result.exact, seed.policy, from, discount());
+      count_optimal(*mdp, *result.exact, from, seed);
     }
     const std::uint64_t cut = world_->episode_steps > 0
                                   ? world_->episode_steps

@@ -38,6 +38,8 @@ struct SeedResult {
   Impossible impossible;
   std::vector<Action> policy;            ///< greedy among visited
   std::optional<Optimality> optimality;  ///< where an exact answer is known
+  /// States whose chosen action is optimal, among the states the verdict is about.
+  std::uint64_t optimal_states = 0, judged_states = 0;
   Played played;
 };
 
