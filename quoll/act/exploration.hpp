@@ -52,8 +52,8 @@ struct CoinExploration {
   Chosen choose(const Rows& rows, const Value* values, const std::uint32_t*, State state,
                 const RowView<Value>& row, const ChoiceDraws& draws, std::uint64_t) const {
     const bool explore = draws.coin() < threshold;
-    const Action greedy = first_tie ? rows.first(values, state, row)
-                                    : rows.pick(values, state, row, draws.tie());
+    const Action greedy =
+        first_tie ? rows.first(values, state, row) : rows.pick(values, state, row, draws.tie());
     return {explore ? scale(draws.action(), row.legal) : greedy, explore};
   }
 };

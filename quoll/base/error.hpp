@@ -11,7 +11,7 @@ namespace quoll {
 
 /// What a person needs to mend an input. `line` and `column` count from 1; 0 = not known.
 struct Error {
-  std::string file{};      ///< file name or option ("--discount"); empty = no place to name
+  std::string file{};  ///< file name or option ("--discount"); empty = no place to name
   std::uint64_t line = 0;
   std::uint64_t column = 0;
   std::string expected{};  ///< one sentence: what was expected and what stood there

@@ -1,5 +1,6 @@
 #pragma once
-// The only door from an Error value to a C++ exception, for the convenience calls of the public API.
+// The only door from an Error value to a C++ exception, for the convenience calls of the public
+// API.
 
 #include <stdexcept>
 

@@ -1,6 +1,7 @@
 #pragma once
-// Randomness as a value: a stream is a pure function of (seed, purpose, lane), a draw a pure function
-// of (stream, counter). Nothing is hidden, nothing is shared, and a draw can be repeated or skipped.
+// Randomness as a value: a stream is a pure function of (seed, purpose, lane), a draw a pure
+// function of (stream, counter). Nothing is hidden, nothing is shared, and a draw can be repeated
+// or skipped.
 //
 // The mixing function is the finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fast splittable
 // pseudorandom number generators", figure 14, variant 13 of David Stafford); a stream walks the
@@ -30,8 +31,8 @@ constexpr double unit(std::uint64_t bits) {
   return static_cast<double>(bits >> 11) * 0x1.0p-53;
 }
 
-/// One stream of random numbers: 8 bytes, copied and stored like any value. Its state is the key plus
-/// the golden ratio times the number of draws made, so it can be moved to any draw at once.
+/// One stream of random numbers: 8 bytes, copied and stored like any value. Its state is the key
+/// plus the golden ratio times the number of draws made, so it can be moved to any draw at once.
 struct Rng {
   std::uint64_t state = 0;
 

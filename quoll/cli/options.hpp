@@ -1,5 +1,6 @@
 #pragma once
-// The options of a verb as data: what the parser, --help, completion and the manual page are made from.
+// The options of a verb as data: what the parser, --help, completion and the manual page are made
+// from.
 
 #include <functional>
 #include <string>
@@ -13,8 +14,8 @@ struct Option {
   /// Receives what was given: a switch, a word, words of a repeated option, or a call per word.
   using Target = std::variant<bool*, std::string*, unsigned*, std::vector<std::string>*,
                               std::function<void(const std::string&)>>;
-  std::string names;     ///< "-o,--output"; without dashes: a positional word
-  std::string type;      ///< "FILE", "number in [0, 1]"; empty = a switch
+  std::string names;  ///< "-o,--output"; without dashes: a positional word
+  std::string type;   ///< "FILE", "number in [0, 1]"; empty = a switch
   std::string sentence;
   Target target;
   bool required = false;

@@ -1,6 +1,7 @@
 #pragma once
-// One verb of the program: a name, a sentence, and a function that declares its options and what runs.
-// The registry in verbs.cpp is the list that help, completion and the manual page are made from.
+// One verb of the program: a name, a sentence, and a function that declares its options and what
+// runs. The registry in verbs.cpp is the list that help, completion and the manual page are made
+// from.
 
 #include <span>
 #include <string_view>

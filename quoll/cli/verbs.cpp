@@ -18,6 +18,8 @@ constexpr Verb entries[] = {
 
 }  // namespace
 
-std::span<const Verb> verbs() { return entries; }
+std::span<const Verb> verbs() {
+  return entries;
+}
 
 }  // namespace quoll::cli

@@ -1,6 +1,6 @@
 #pragma once
-// The border to everything that learns: a learner owns its closed loop of acting and updating, and is
-// advanced by a number of steps. It never prints, times or reads files.
+// The border to everything that learns: a learner owns its closed loop of acting and updating, and
+// is advanced by a number of steps. It never prints, times or reads files.
 
 #include <cstdint>
 #include <memory>
@@ -30,14 +30,14 @@ struct Impossible {
 struct LearnProgress {
   enum class Halt : std::uint8_t { none, stable, diverged } halt = Halt::none;
   std::uint64_t steps = 0;
-  std::uint64_t episodes = 0;     ///< finished ones
-  double return_sum = 0.0;        ///< undiscounted returns of the finished episodes
-  std::uint64_t logged = 0;       ///< updates written to the log by the last advance
-  Impossible impossible;          ///< the first one
+  std::uint64_t episodes = 0;  ///< finished ones
+  double return_sum = 0.0;     ///< undiscounted returns of the finished episodes
+  std::uint64_t logged = 0;    ///< updates written to the log by the last advance
+  Impossible impossible;       ///< the first one
 };
 
-/// What was learned, per choice of the model (choice_begin(s) + a), in plain doubles. Without a model
-/// the rows are those of the environment: row_begin[s] + a.
+/// What was learned, per choice of the model (choice_begin(s) + a), in plain doubles. Without a
+/// model the rows are those of the environment: row_begin[s] + a.
 struct Estimates {
   std::vector<std::uint64_t> row_begin;  ///< first choice of each state, and the end
   std::vector<double> q;
@@ -49,8 +49,8 @@ struct Estimates {
 class Learner {
  public:
   virtual ~Learner() = default;
-  /// Acts and learns for at most `steps` steps; exactly that many unless it halts. With a log, stops
-  /// when the log is full; the bits are the same with and without.
+  /// Acts and learns for at most `steps` steps; exactly that many unless it halts. With a log,
+  /// stops when the log is full; the bits are the same with and without.
   virtual LearnProgress advance(std::uint64_t steps, std::span<Update> log) = 0;
   virtual LearnProgress progress() const = 0;
   virtual Estimates estimates() const = 0;
@@ -72,8 +72,8 @@ struct LearnerEntry {
 };
 std::span<const LearnerEntry> learners();
 
-/// The learner that the settings name, for this world; `initial_rewards` per choice for the rules that
-/// take them (empty = those of the settings).
+/// The learner that the settings name, for this world; `initial_rewards` per choice for the rules
+/// that take them (empty = those of the settings).
 Result<std::unique_ptr<Learner>> make_learner(const LearnSettings& settings, const World& world,
                                               const std::vector<double>& initial_rewards = {});
 

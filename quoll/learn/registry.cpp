@@ -28,8 +28,8 @@ Result<const LearnerEntry*> find_learner(const LearnSettings& settings) {
     rule.offer(entry.rule);
   }
   if (!method_known) {
-    return Error{"--method", 0, 0,
-                 "no method '" + settings.method + "'; see 'quoll list methods'", method.best()};
+    return Error{"--method", 0, 0, "no method '" + settings.method + "'; see 'quoll list methods'",
+                 method.best()};
   }
   return Error{"--rule", 0, 0,
                "standard, as-printed or reward-estimate expected, not '" + settings.rule + "'",

@@ -83,16 +83,15 @@ Result<Exploration> exploration(const LearnSettings& settings, const World& worl
 Result<StartStates> starts(const LearnSettings& settings, const World& world) {
   const std::string_view text = settings.start;
   const std::string_view kind = text.substr(0, text.find(':'));
-  const auto* const found =
-      std::find(std::begin(start_names), std::end(start_names), kind);
+  const auto* const found = std::find(std::begin(start_names), std::end(start_names), kind);
   if (found == std::end(start_names) || (kind != text && kind != "fixed")) {
     return Error{"--start", 0, 0, "no start '" + settings.start + "'; see 'quoll list starts'",
                  nearest(kind, std::span<const std::string_view>(start_names))};
   }
   if (kind != "world" && !world.traits.settable) {
-    return Error{"--start", 0, 0,
-                 "the world " + world.name + " cannot be put into a chosen state; use --start world",
-                 ""};
+    return Error{
+        "--start", 0, 0,
+        "the world " + world.name + " cannot be put into a chosen state; use --start world", ""};
   }
   if (!world.mdp) {
     if (kind == "world") return StartStates();
@@ -106,9 +105,10 @@ Result<StartStates> starts(const LearnSettings& settings, const World& world) {
     const std::string_view name = kind == text ? "" : text.substr(kind.size() + 1);
     const auto state = mdp.find_state(name);
     if (!state) {
-      return Error{"--start", 0, 0,
-                   "no state '" + std::string(name) + "' in " + world.name + "; fixed:STATE expected",
-                   mdp.arrays().state_names.nearest(name)};
+      return Error{
+          "--start", 0, 0,
+          "no state '" + std::string(name) + "' in " + world.name + "; fixed:STATE expected",
+          mdp.arrays().state_names.nearest(name)};
     }
     if (mdp.terminal(*state)) {
       return Error{"--start", 0, 0, "the state " + std::string(name) + " is an end: nothing to do",
@@ -117,13 +117,14 @@ Result<StartStates> starts(const LearnSettings& settings, const World& world) {
     result = StartStates::fixed(*state);
   }
   if (result.states().empty()) {
-    return Error{"", 0, 0, "nothing to learn in " + world.name + ": every start state is an end", ""};
+    return Error{"", 0, 0, "nothing to learn in " + world.name + ": every start state is an end",
+                 ""};
   }
   return result;
 }
 
-// "optimistic": the most any policy can earn: R / (1 - discount), or the largest reward when no single
-// one but the last can be positive.
+// "optimistic": the most any policy can earn: R / (1 - discount), or the largest reward when no
+// single one but the last can be positive.
 Result<double> initial_value(const LearnSettings& settings, const World& world, double discount) {
   if (settings.initial_value != "optimistic") {
     const auto number = parse_number(settings.initial_value);
@@ -153,7 +154,8 @@ Result<double> initial_value(const LearnSettings& settings, const World& world, 
   if (running <= 0.0) return std::max(0.0, last);
   if (discount < 1.0) return std::max(running, last) / (1.0 - discount);
   return Error{"--initial-value", 0, 0,
-               "optimistic is unbounded here (discount 1 and rewards on the way); give a number", ""};
+               "optimistic is unbounded here (discount 1 and rewards on the way); give a number",
+               ""};
 }
 
 std::uint64_t episode_limit(const LearnSettings& settings, const World& world, double discount) {
@@ -168,8 +170,8 @@ std::uint64_t episode_limit(const LearnSettings& settings, const World& world, d
 StableSetup stable(const LearnSettings& settings, const TabularSetup& setup, const World& world) {
   StableSetup stable;
   stable.watch = settings.until_stable;
-  const bool proves = world.traits.deterministic &&
-                      (setup.step_size.one() || setup.rule != "standard");
+  const bool proves =
+      world.traits.deterministic && (setup.step_size.one() || setup.rule != "standard");
   stable.visits = proves ? 1 : 100;
   stable.tolerance = settings.tolerance >= 0.0 ? settings.tolerance : proves ? 0.0 : 1e-3;
   if (stable.watch && world.mdp) {
@@ -217,8 +219,8 @@ Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
   const std::uint64_t choices = world.mdp ? world.mdp->choices() : 0;
   if (!initial_rewards.empty() && initial_rewards.size() != choices) {
     return Error{"--initial-rewards", 0, 0,
-                 "one value for each of the " + std::to_string(choices) + " moves of " + world.name +
-                     " expected, not " + std::to_string(initial_rewards.size()),
+                 "one value for each of the " + std::to_string(choices) + " moves of " +
+                     world.name + " expected, not " + std::to_string(initial_rewards.size()),
                  ""};
   }
   setup.initial_rewards = initial_rewards;
@@ -235,8 +237,7 @@ Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
         largest = std::max(largest, std::fabs(reward));
       }
     }
-    setup.value_bound =
-        std::max(std::fabs(setup.initial_value), largest / (1.0 - setup.discount));
+    setup.value_bound = std::max(std::fabs(setup.initial_value), largest / (1.0 - setup.discount));
   }
   return setup;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// How to learn, as people say it (LearnSettings: words and numbers, one list for command line, TOML and
-// checkpoint), and as the loop needs it (TabularSetup: resolved against a world).
+// How to learn, as people say it (LearnSettings: words and numbers, one list for command line, TOML
+// and checkpoint), and as the loop needs it (TabularSetup: resolved against a world).
 
 #include <cstdint>
 #include <memory>
@@ -47,9 +47,9 @@ struct LearnSettings {
 /// Watching for the point from which nothing changes any more (docs/design.md, section 6).
 struct StableSetup {
   bool watch = false;
-  std::uint32_t visits = 1;    ///< K: visits of every pair since the last movement
-  double tolerance = 0.0;      ///< relative to max(1, |Q|)
-  std::uint64_t pairs = 0;     ///< pairs reachable from the start; 0 = not known, those met so far
+  std::uint32_t visits = 1;  ///< K: visits of every pair since the last movement
+  double tolerance = 0.0;    ///< relative to max(1, |Q|)
+  std::uint64_t pairs = 0;   ///< pairs reachable from the start; 0 = not known, those met so far
 };
 
 /// Everything the tabular loop needs, resolved and checked.

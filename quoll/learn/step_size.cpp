@@ -50,10 +50,11 @@ Result<StepSize> parse_step_size(std::string_view text, bool deterministic, doub
     step.value = *number;
     return step;
   }
-  return Error{"--step-size", 0, 0,
-               "auto, a number in (0, 1], 1/N^w with w in (0.5, 1] or rescaled-linear expected, not '" +
-                   std::string(text) + "'",
-               ""};
+  return Error{
+      "--step-size", 0, 0,
+      "auto, a number in (0, 1], 1/N^w with w in (0.5, 1] or rescaled-linear expected, not '" +
+          std::string(text) + "'",
+      ""};
 }
 
 }  // namespace quoll

@@ -47,8 +47,8 @@ struct StepSize {
   std::shared_ptr<const std::vector<double>> powers_;  // shared, so that a copy is cheap
 };
 
-/// "0.1", "1/N^0.8", "rescaled-linear" (H = 1 / (1 - discount), or 1000 at discount 1), or "auto": 1 in
-/// a deterministic world, rescaled-linear in others.
+/// "0.1", "1/N^0.8", "rescaled-linear" (H = 1 / (1 - discount), or 1000 at discount 1), or "auto":
+/// 1 in a deterministic world, rescaled-linear in others.
 Result<StepSize> parse_step_size(std::string_view text, bool deterministic, double discount);
 
 }  // namespace quoll

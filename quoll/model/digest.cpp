@@ -9,7 +9,9 @@ namespace {
 
 class Hash {
  public:
-  void add(std::uint64_t word) { value_ = mix(value_ + golden_gamma) ^ mix(word + golden_gamma * 3); }
+  void add(std::uint64_t word) {
+    value_ = mix(value_ + golden_gamma) ^ mix(word + golden_gamma * 3);
+  }
   void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
   void add(const std::string& text) {
     std::uint64_t word = 0xcbf29ce484222325ULL;
@@ -22,8 +24,10 @@ class Hash {
   void add_all(const std::vector<T>& items) {
     add(std::uint64_t{items.size()});
     for (const T& item : items) {
-      if constexpr (std::is_same_v<T, double>) add(item);
-      else add(std::uint64_t{item});
+      if constexpr (std::is_same_v<T, double>)
+        add(item);
+      else
+        add(std::uint64_t{item});
     }
   }
   std::uint64_t value() const { return mix(value_); }

@@ -1,5 +1,6 @@
 #pragma once
-// One step of several lanes as columns: what environments fill, policies read and learners learn from.
+// One step of several lanes as columns: what environments fill, policies read and learners learn
+// from.
 
 #include <cstdint>
 #include <span>
@@ -8,16 +9,16 @@
 
 namespace quoll {
 
-/// The two ways an episode stops: `terminated` = the world ended, nothing follows; `truncated` = cut
-/// off from outside, the future still counts. Both may be set.
+/// The two ways an episode stops: `terminated` = the world ended, nothing follows; `truncated` =
+/// cut off from outside, the future still counts. Both may be set.
 struct Feedback {
   double reward = 0.0;
   bool terminated = false;
   bool truncated = false;
 };
 
-/// Columns with one entry per lane. `observation` columns hold lanes x observation_size floats and are
-/// empty for worlds whose states are numbered.
+/// Columns with one entry per lane. `observation` columns hold lanes x observation_size floats and
+/// are empty for worlds whose states are numbered.
 struct Experience {
   std::span<State> state;
   std::span<Action> action;

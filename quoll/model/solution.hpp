@@ -15,14 +15,11 @@ struct Solution {
   std::vector<double> upper;   ///< per state: V*(s) <= upper[s]
   std::vector<Action> policy;  ///< per state; no_action for ends
   double discount = 1.0;
-  std::string method;          ///< the solver that ran
-  std::uint64_t sweeps = 0;    ///< passes over all states (fractions rounded up)
-  std::uint64_t backups = 0;   ///< maximisations over one state's actions
-  bool converged = false;      ///< largest upper - lower <= the width asked for
-  bool exact = false;          ///< proved without rounding: lower = upper = V*
-
-  /// Largest upper - lower over all states: also the certified loss of the policy.
-  double gap() const;
+  std::string method;         ///< the solver that ran
+  std::uint64_t sweeps = 0;   ///< passes over all states (fractions rounded up)
+  std::uint64_t backups = 0;  ///< maximisations over one state's actions
+  bool converged = false;     ///< largest upper - lower <= the width asked for
+  bool exact = false;         ///< proved without rounding: lower = upper = V*
 };
 
 }  // namespace quoll

@@ -12,6 +12,8 @@ constexpr WorldEntry entries[] = {
 
 }  // namespace
 
-std::span<const WorldEntry> worlds() { return entries; }
+std::span<const WorldEntry> worlds() {
+  return entries;
+}
 
 }  // namespace quoll
