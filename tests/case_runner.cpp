@@ -195,7 +195,7 @@ std::vector<Step> parse_page(const fs::path& file, const Lines& lines) {
 class Folder {
  public:
   explicit Folder(const fs::path& program) {
-    std::string name = (fs::temp_directory_path() / "quoll-case-XXXXXX").string();
+    std::string name = (fs::temp_directory_path() / ("quoll-case-" + std::string(6, 'X'))).string();
     if (mkdtemp(name.data()) == nullptr) fail(name, 0, "cannot make a folder");
     root_ = name;
     fs::create_directories(root_ / "bin");

@@ -58,7 +58,8 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
   static const std::regex not_in_core(
       R"re(\bthrow\b|<iostream>|<format>|std::views|std::ranges::views)re");
   static const std::regex nowhere(
-      R"re(std::(uniform|normal|bernoulli|discrete|exponential|geometric|poisson)\w*_distribution|)re"
+      R"re(std::(uniform|normal|bernoulli|discrete|exponential|geometric|poisson)\w*_)re"
+      R"re(distribution|)re"
       R"re(std::shuffle|std::hash\b|ffast-math)re");
   std::vector<std::string> found;
   const std::string folder = folder_of(path);

@@ -62,7 +62,7 @@ namespace fs = std::filesystem;
 class FileTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "quoll-test-XXXXXX").string();
+    std::string name = (fs::temp_directory_path() / ("quoll-test-" + std::string(6, 'X'))).string();
     ASSERT_NE(mkdtemp(name.data()), nullptr);
     folder_ = name;
     path_ = folder_ + "/file";
