@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "quoll/base/file.hpp"
 #include "quoll/base/text.hpp"
@@ -15,6 +17,7 @@
 #include "quoll/report/grid_text.hpp"
 #include "quoll/report/progress.hpp"
 #include "quoll/solve/methods.hpp"
+#include "quoll/solve/rounding.hpp"
 
 namespace quoll::cli {
 namespace {
@@ -77,7 +80,7 @@ std::string solve_json(const Solved& solved, bool all) {
   json.member("method", solution.method).member("sweeps", solution.sweeps);
   json.member("seconds", solved.seconds).member("seconds_load", solved.seconds_load);
   write_interval(json, "start", solved.start());
-  json.member("gap", largest_gap(solution)).member("converged", solution.converged);
+  json.member("gap", largest_gap(mdp, solution)).member("converged", solution.converged);
   json.rows("values", mdp.states(), all, [&](std::uint64_t i) {
     const auto s = static_cast<State>(i);
     json.begin_object().member("state", mdp.state_name(s));
@@ -101,9 +104,12 @@ std::string heading(const Solved& solved) {
       solved.solution.method);
 }
 
-/// Q* of every choice beside each other, for worlds that fit on a page.
+/// Q* of every choice beside each other, for worlds that fit on a page; nothing if one of them is
+/// not known at all.
 std::string q_text(const Solved& solved) {
   const std::vector<double> q = q_star_all(solved.mdp, solved.solution, solved.solution.discount);
+  const bool known = std::none_of(q.begin(), q.end(), [](double x) { return std::isnan(x); });
+  if (!known) return "";
   QTableView view;
   view.mdp = &solved.mdp;
   view.q = q;
@@ -133,8 +139,9 @@ std::string tables(const Solved& solved, const TerminalStyle& style, bool all) {
   view.states = all ? 0 : few_states;
   std::string text = value_table(view) + "\n";
   // The table of Q stars the largest number of a state: for costs that would be the worst.
-  if (mdp.states() <= few_states && !solved.asked.minimise) text += q_text(solved) + "\n";
-  return text;
+  if (mdp.states() > few_states || solved.asked.minimise) return text;
+  const std::string q = q_text(solved);
+  return q.empty() ? text : text + q + "\n";
 }
 
 std::string interval_text(const Interval& interval) {
@@ -151,10 +158,18 @@ std::string time_text(double seconds) {
 
 std::string verdict(const Solved& solved) {
   const Solution& solution = solved.solution;
-  std::string text = "start value " + interval_text(solved.start());
-  text += solution.converged ? ", certified: no state of this policy loses more than "
-                             : ", not as close as asked: the policy may lose up to ";
-  text += number_text(largest_gap(solution)) + "\n";
+  const Interval start = solved.start();
+  std::string text;
+  if (start.lower == -infinity && start.upper == infinity) {
+    text = "no certified value: the total reward could not be bounded";
+    if (solution.discount == 1.0) text += "; a discount below 1 makes the values finite";
+    text += "\n";
+  } else {
+    text = "start value " + interval_text(start);
+    text += solution.converged ? ", certified: no state of this policy loses more than "
+                               : ", not as close as asked: the policy may lose up to ";
+    text += number_text(largest_gap(solved.mdp, solution)) + "\n";
+  }
   text += fmt::format("{} sweep{} in {} (loaded in {})\n", grouped(solution.sweeps),
                       solution.sweeps == 1 ? "" : "s", time_text(solved.seconds),
                       time_text(solved.seconds_load));

@@ -40,6 +40,17 @@ struct EndComponents {
 /// algorithm 3.1: components are split until stable. Memory: 8 bytes per outcome while it runs.
 EndComponents maximal_end_components(const Mdp& mdp, const std::vector<bool>& allowed_choice = {});
 
+/// Whether staying in an end component for ever can earn more than 0 per move. Certain in spite of
+/// rounding; undecided = the bounds are still apart after a fixed amount of work.
+enum class Gain : std::uint8_t { none, certain, undecided };
+/// Per component of `parts`, over the choices inside. Puterman 1994, section 8.5: relative value
+/// iteration, at most 10,000 sweeps and about 1e9 outcomes per component; components without a
+/// positive reward cost nothing.
+std::vector<Gain> component_gains(const Mdp& mdp, const EndComponents& parts);
+/// States one policy stays in for ever with a certain gain, ascending, going from each to each; of
+/// the first component that has one. Empty = none certain. Cost: as component_gains.
+std::vector<State> gaining_class(const Mdp& mdp, const EndComponents& parts);
+
 /// Why total reward without discounting is not defined here, if it is not.
 struct UndiscountedFault {
   enum class Kind : std::uint8_t { none, no_end, gaining_cycle } kind = Kind::none;
@@ -48,9 +59,13 @@ struct UndiscountedFault {
 };
 /// Checks what discount 1 needs, over the states reachable from the start: every state can reach an
 /// end, and no cycle of positive reward. Cycles are searched exactly in deterministic models (a
-/// gain below 1e-12 of the largest |reward| per move counts as rounding); in others an end
-/// component of choices that never lose is a fault if one of them gains, which is certain but not
-/// complete.
+/// gain below 1e-12 of the largest |reward| per move counts as rounding); in others a set of states
+/// that one policy stays in is a fault if its gain is certain (gaining_class), so that a gain too
+/// small to be decided is not reported.
 UndiscountedFault undiscounted_fault(const Mdp& mdp);
+
+/// States, reachable from the start or not, that can come to a part of the model that gains for
+/// ever or of which that is undecided. Cost: as undiscounted_fault, on all states.
+std::vector<bool> may_gain_for_ever(const Mdp& mdp);
 
 }  // namespace quoll

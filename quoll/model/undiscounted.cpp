@@ -123,7 +123,10 @@ bool can_gain(const Mdp& mdp, const std::vector<bool>& reached) {
   return false;
 }
 
-std::vector<State> gaining_cycle(const Mdp& mdp, const std::vector<bool>& reached) {
+// Calls found(members, cycle) for each strongly connected component that has a positive cycle,
+// until it returns false.
+template <class Found>
+void for_each_gaining(const Mdp& mdp, const std::vector<bool>& reached, Found found) {
   std::vector<std::uint32_t> component = strongly_connected(mdp);
   std::vector<bool> gains(mdp.states(), false);  // per component
   for (State s = 0; s < mdp.states(); ++s) {
@@ -132,22 +135,58 @@ std::vector<State> gaining_cycle(const Mdp& mdp, const std::vector<bool>& reache
       if (mdp.reward(c) > 0.0 && component[mdp.next(c)] == component[s]) gains[component[s]] = true;
     }
   }
-  std::vector<State> members;  // of components that gain, component after component
+  std::vector<State> states;  // of components that gain, component after component
   for (State s = 0; s < mdp.states(); ++s) {
-    if (gains[component[s]]) members.push_back(s);
+    if (gains[component[s]]) states.push_back(s);
   }
-  std::stable_sort(members.begin(), members.end(),
+  std::stable_sort(states.begin(), states.end(),
                    [&](State a, State b) { return component[a] < component[b]; });
   PositiveCycle search(mdp, component);
-  for (std::size_t begin = 0, end = 0; begin < members.size(); begin = end) {
-    while (end < members.size() && component[members[end]] == component[members[begin]]) ++end;
-    std::vector<State> cycle = search.find(std::span(members).subspan(begin, end - begin));
-    if (!cycle.empty()) return cycle;
+  for (std::size_t begin = 0, end = 0; begin < states.size(); begin = end) {
+    while (end < states.size() && component[states[end]] == component[states[begin]]) ++end;
+    const auto members = std::span(states).subspan(begin, end - begin);
+    std::vector<State> cycle = search.find(members);
+    if (!cycle.empty() && !found(members, std::move(cycle))) return;
   }
-  return {};
 }
 
-std::vector<State> gaining_component(const Mdp& mdp, const std::vector<bool>& reached) {
+std::vector<State> gaining_cycle(const Mdp& mdp, const std::vector<bool>& reached) {
+  std::vector<State> first;
+  for_each_gaining(mdp, reached, [&](std::span<const State>, std::vector<State> cycle) {
+    first = std::move(cycle);
+    return false;
+  });
+  return first;
+}
+
+EndComponents reached_components(const Mdp& mdp, const std::vector<bool>& reached) {
+  std::vector<bool> allowed(mdp.choices(), false);
+  for (State s = 0; s < mdp.states(); ++s) {
+    for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) allowed[c] = reached[s];
+  }
+  return maximal_end_components(mdp, allowed);
+}
+
+// Marks all states that can come to a marked one.
+void spread_backward(const Mdp& mdp, std::vector<bool>& marked) {
+  bool backward = true;
+  for (bool changed = true; changed; backward = !backward) {
+    changed = false;
+    for (std::size_t i = 0; i < mdp.states(); ++i) {
+      const State s = static_cast<State>(backward ? mdp.states() - 1 - i : i);
+      if (marked[s] || mdp.terminal(s)) continue;
+      const std::uint64_t end = mdp.outcome_begin(mdp.choice_end(s));
+      for (std::uint64_t o = mdp.outcome_begin(mdp.choice_begin(s)); o < end; ++o) {
+        if (!marked[mdp.next(o)]) continue;
+        marked[s] = changed = true;
+        break;
+      }
+    }
+  }
+}
+
+// What choices that never lose can stay in gains at once if one of them does: no sweeps needed.
+std::vector<State> lossless_component(const Mdp& mdp, const std::vector<bool>& reached) {
   std::vector<bool> allowed(mdp.choices(), false);
   for (State s = 0; s < mdp.states(); ++s) {
     for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
@@ -169,6 +208,13 @@ std::vector<State> gaining_component(const Mdp& mdp, const std::vector<bool>& re
   return states;
 }
 
+std::vector<State> gaining_states(const Mdp& mdp, const std::vector<bool>& reached) {
+  if (mdp.deterministic()) return gaining_cycle(mdp, reached);
+  std::vector<State> states = lossless_component(mdp, reached);
+  if (states.empty()) states = gaining_class(mdp, reached_components(mdp, reached));
+  return states;
+}
+
 }  // namespace
 
 UndiscountedFault undiscounted_fault(const Mdp& mdp) {
@@ -183,10 +229,30 @@ UndiscountedFault undiscounted_fault(const Mdp& mdp) {
     return fault;
   }
   if (!can_gain(mdp, reached)) return fault;
-  fault.states =
-      mdp.deterministic() ? gaining_cycle(mdp, reached) : gaining_component(mdp, reached);
+  fault.states = gaining_states(mdp, reached);
   if (!fault.states.empty()) fault.kind = UndiscountedFault::Kind::gaining_cycle;
   return fault;
+}
+
+std::vector<bool> may_gain_for_ever(const Mdp& mdp) {
+  const std::vector<bool> all(mdp.states(), true);
+  std::vector<bool> marked(mdp.states(), false);
+  if (!can_gain(mdp, all)) return marked;
+  if (mdp.deterministic()) {
+    for_each_gaining(mdp, all, [&](std::span<const State> members, std::vector<State>) {
+      for (const State s : members) marked[s] = true;
+      return true;
+    });
+  } else {
+    const EndComponents parts = maximal_end_components(mdp);
+    const std::vector<Gain> gains = component_gains(mdp, parts);
+    for (State s = 0; s < mdp.states(); ++s) {
+      const std::uint32_t k = parts.component[s];
+      marked[s] = k != no_component && gains[k] != Gain::none;
+    }
+  }
+  spread_backward(mdp, marked);
+  return marked;
 }
 
 }  // namespace quoll

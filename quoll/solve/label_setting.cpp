@@ -178,7 +178,11 @@ class LabelSettingSolver : public Solver {
     Solution solution;
     solution.method = "label-setting";
     solution.policy.assign(mdp.states(), no_action);
-    const std::vector<std::uint8_t> live = live_states(mdp, *discount);
+    std::vector<std::uint8_t> live = live_states(mdp, *discount);
+    const std::vector<bool> unknown = *discount == 1.0 ? unknown_states(mdp) : std::vector<bool>();
+    for (std::size_t s = 0; s < unknown.size(); ++s) {
+      if (unknown[s]) live[s] = 0;
+    }
     for (State s = 0; s < mdp.states(); ++s) {
       if (!mdp.terminal(s)) solution.policy[s] = 0;
     }
@@ -191,6 +195,7 @@ class LabelSettingSolver : public Solver {
       correct_labels(mdp, settings, *discount, live, solution);
     }
     improve_to_optimum(mdp, settings, *discount, live, solution);
+    leave_unknown(mdp, unknown, settings.width, solution);
     return solution;
   }
 };

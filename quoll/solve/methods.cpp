@@ -57,19 +57,46 @@ Result<Solution> solve_minimised(Solver& solver, const Mdp& mdp, SolveSettings s
   return result;
 }
 
-double largest_gap(const Solution& solution) {
+double largest_gap(const Mdp& mdp, const Solution& solution) {
   double gap = 0.0;
+  std::vector<bool> reached;  // found only if it matters
   for (std::size_t s = 0; s < solution.lower.size(); ++s) {
     if (solution.lower[s] == solution.upper[s]) continue;
+    if (solution.lower[s] == -infinity && solution.upper[s] == infinity) {
+      if (reached.empty()) reached = reachable(mdp, mdp.start());
+      if (!reached[s]) continue;
+    }
     gap = std::max(gap, next_up(solution.upper[s] - solution.lower[s]));
   }
   return gap;
 }
 
-void conclude(Solution& solution, double width) {
-  const double gap = largest_gap(solution);
-  solution.exact = gap == 0.0;
-  solution.converged = gap <= width;
+void conclude(const Mdp& mdp, Solution& solution, double width) {
+  solution.exact = solution.lower == solution.upper;
+  solution.converged = largest_gap(mdp, solution) <= width;
+}
+
+std::vector<bool> unknown_states(const Mdp& mdp) {
+  const std::vector<bool> reached = reachable(mdp, mdp.start());
+  if (std::find(reached.begin(), reached.end(), false) == reached.end()) return {};
+  std::vector<bool> unknown = may_gain_for_ever(mdp);
+  bool any = false;
+  for (std::size_t s = 0; s < unknown.size(); ++s) {
+    unknown[s] = unknown[s] && !reached[s];
+    any = any || unknown[s];
+  }
+  return any ? unknown : std::vector<bool>();
+}
+
+void leave_unknown(const Mdp& mdp, const std::vector<bool>& unknown, double width,
+                   Solution& solution) {
+  if (unknown.empty()) return;
+  for (std::size_t s = 0; s < unknown.size(); ++s) {
+    if (!unknown[s]) continue;
+    solution.lower[s] = -infinity;
+    solution.upper[s] = infinity;
+  }
+  conclude(mdp, solution, width);
 }
 
 bool may_continue(const SolveSettings& settings, const Solution& solution, double gap) {
@@ -98,7 +125,7 @@ void improve_to_optimum(const Mdp& mdp, const SolveSettings& settings, double di
   if (!raise_until_inductive(mdp, factor, values.order, solution.upper)) {
     for (const State s : values.order) solution.upper[s] = infinity;
   }
-  conclude(solution, settings.width);
+  conclude(mdp, solution, settings.width);
 }
 
 std::vector<std::uint8_t> live_states(const Mdp& mdp, double discount) {

@@ -24,11 +24,19 @@ std::optional<Error> undiscounted_error(const Mdp& mdp);
 /// Solves for the least cost: the same solver on the model with negated rewards.
 Result<Solution> solve_minimised(Solver& solver, const Mdp& mdp, SolveSettings settings);
 
-/// Sets gap, converged and exact from the bounds.
-void conclude(Solution& solution, double width);
+/// Sets converged and exact from the bounds.
+void conclude(const Mdp& mdp, Solution& solution, double width);
 
-/// Largest upper - lower; equal infinite bounds count as 0.
-double largest_gap(const Solution& solution);
+/// Largest upper - lower; equal infinite bounds count as 0. States that cannot follow from the
+/// start and of which nothing is known, -infinity to infinity, do not count.
+double largest_gap(const Mdp& mdp, const Solution& solution);
+
+/// At discount 1: the states that cannot follow from the start and may gain for ever; no other
+/// state's value depends on them. Empty = none.
+std::vector<bool> unknown_states(const Mdp& mdp);
+/// Gives them the bounds -infinity to infinity and concludes anew.
+void leave_unknown(const Mdp& mdp, const std::vector<bool>& unknown, double width,
+                   Solution& solution);
 
 /// Tells keep_going how far the work is; false = stop.
 bool may_continue(const SolveSettings& settings, const Solution& solution, double gap);
@@ -42,8 +50,10 @@ void improve_to_optimum(const Mdp& mdp, const SolveSettings& settings, double di
 Result<Solution> solve_undiscounted(const Mdp& mdp, const SolveSettings& settings,
                                     std::string_view method);
 /// The same without asking first whether values are defined: states that cannot end with
-/// probability 1 get -infinity, bounds that cannot be proved are infinite.
-Solution solve_ending(const Mdp& mdp, const SolveSettings& settings, std::string_view method);
+/// probability 1 get -infinity, bounds that cannot be proved are infinite. Those in `unknown` must
+/// not follow from others; they are left unknown.
+Solution solve_ending(const Mdp& mdp, const SolveSettings& settings, std::string_view method,
+                      const std::vector<bool>& unknown = {});
 
 /// Per state 1 if it is no end and some policy ends from it with probability 1. At discounts below
 /// 1 every non-terminal state is live.

@@ -9,6 +9,7 @@
 #include "quoll/solve/ending.hpp"
 #include "quoll/solve/evaluate.hpp"
 #include "quoll/solve/functional_graph.hpp"
+#include "quoll/solve/solver.hpp"
 #include "quoll/solve/span_bounds.hpp"
 #include "quoll/solve/sweep.hpp"
 #include "quoll/solve/total_certificate.hpp"
@@ -30,7 +31,12 @@ double difference_up(double a, double b) {
 class Judge {
  public:
   Judge(const Mdp& mdp, const Solution& exact, std::span<const Action> policy, double discount)
-      : mdp_(mdp), exact_(exact), policy_(policy), discount_(discount), upper_(exact.upper) {}
+      : mdp_(mdp),
+        exact_lower_(exact.lower),
+        policy_(policy),
+        discount_(discount),
+        upper_(exact.upper),
+        along_graph_(exact.method == "label-setting") {}
 
   Optimality run(std::span<const State> from) {
     const std::vector<bool> reached = reachable(mdp_, from);
@@ -51,6 +57,10 @@ class Judge {
     decide();
     if (!out_.optimal) {
       tighten_upper();
+      decide();
+    }
+    if (!out_.optimal && mdp_.deterministic() && !along_graph_) {
+      solve_along_graph();
       decide();
     }
     measure_regret();
@@ -115,7 +125,7 @@ class Judge {
     return true;
   }
 
-  double best_lower(State s) const { return std::max(exact_.lower[s], value_.lower[s]); }
+  double best_lower(State s) const { return std::max(exact_lower_[s], value_.lower[s]); }
 
   double least_size(State s) const {
     const double lower = best_lower(s);
@@ -124,7 +134,7 @@ class Judge {
   }
 
   bool surely_lost(State s) const {
-    const double lower = exact_.lower[s];
+    const double lower = exact_lower_[s];
     if (!(lower > value_.upper[s])) return false;
     if (value_.upper[s] == -infinity) return true;
     const double size = std::max(std::fabs(lower), std::fabs(upper_[s]));
@@ -147,6 +157,18 @@ class Judge {
       bound = discount.none() ? undiscounted_upper(mean) : discounted_upper(mean);
     }
     for (State s = 0; s < mdp_.states(); ++s) upper_[s] = std::min(upper_[s], bound[s]);
+  }
+
+  // Deterministic models have bounds as tight as rounding allows, whoever solved them before.
+  void solve_along_graph() {
+    SolveSettings settings;
+    settings.discount = discount_;
+    const Result<Solution> exact = solve(mdp_, settings, "label-setting");
+    if (!exact) return;
+    for (State s = 0; s < mdp_.states(); ++s) {
+      exact_lower_[s] = std::max(exact_lower_[s], exact->lower[s]);
+      upper_[s] = std::min(upper_[s], exact->upper[s]);
+    }
   }
 
   std::vector<double> discounted_upper(const std::vector<double>& value) const {
@@ -181,7 +203,7 @@ class Judge {
         out_.regret = loss;
         out_.worst = s;
       }
-      const double best = middle(exact_.lower[s], std::max(exact_.lower[s], upper_[s]));
+      const double best = middle(exact_lower_[s], std::max(exact_lower_[s], upper_[s]));
       const double own = middle(value_.lower[s], value_.upper[s]);
       if (best == own || !(best > own)) continue;
       out_.regret_estimate = std::max(out_.regret_estimate, std::min(best - own, out_.regret));
@@ -189,10 +211,11 @@ class Judge {
   }
 
   const Mdp& mdp_;
-  const Solution& exact_;
+  std::vector<double> exact_lower_;  // of V*
   std::span<const Action> policy_;
   double discount_;
   std::vector<double> upper_;  // of V*
+  bool along_graph_;           // the solution given is as tight as it gets
   std::vector<State> asked_;
   Evaluation value_;  // of the policy
   Optimality out_;

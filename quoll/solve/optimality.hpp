@@ -25,7 +25,9 @@ struct Optimality {
 /// Judges a policy (action per state) on the non-terminal states reachable from `from`. True: every
 /// chosen action is a maximiser by the exact graph, or V*(s) - V^policy(s) <= 1e-9 |V*(s)| is
 /// certified in every state; false: the contrary is certified, or a state has no_action. `exact` is
-/// a solution of the same model at the same discount. Cost: one evaluation of the policy.
+/// a solution of the same model at the same discount. Cost: one evaluation of the policy;
+/// where that leaves a deterministic model undecided and another method solved it, one solve by
+/// label-setting.
 Optimality judge(const Mdp& mdp, const Solution& exact, std::span<const Action> policy,
                  std::span<const State> from, double discount);
 

@@ -76,7 +76,7 @@ Result<Solution> iterate_policies(const Mdp& mdp, const SolveSettings& settings,
     solution.lower[s] = add_down(solution.lower[s], bounds.lower);
     solution.upper[s] = add_up(solution.upper[s], bounds.upper);
   }
-  conclude(solution, settings.width);
+  conclude(mdp, solution, settings.width);
   return solution;
 }
 

@@ -20,7 +20,8 @@
 //      rounding: with accurate values pi then keeps ending, because no cycle gains
 //   3  repeat until nothing switches after an accurate evaluation V; if rough values led to a
 //      policy that does not end, begin again with accurate ones only
-//   4  prove V - e w <= V_pi and V* <= V + e w (total_certificate.hpp)
+//   4  stop if the values of policies that do not end keep growing: nothing is certified then
+//   5  prove V - e w <= V_pi and V* <= V + e w (total_certificate.hpp)
 //
 // pi: policy, V: value.
 
@@ -50,6 +51,7 @@ class EndingIteration {
     std::uint64_t patience = patient ? settings_.max_sweeps : 10'000;
     while (go_on_) {
       const double change = evaluate(patience);
+      if (endless_ > (patient ? 0u : 20u)) break;  // step 4
       const double improvement = improve();
       go_on_ = go_on_ && may_continue(settings_, solution_, std::max(change, improvement));
       if (improvement == 0.0 && change <= rounding()) break;
@@ -62,6 +64,8 @@ class EndingIteration {
   bool stopped() const { return !go_on_; }
 
  private:
+  static constexpr std::uint64_t trial = 100;  // sweeps after which endlessness is looked for
+
   double rounding() const {
     double size = reward_size_;
     for (State s = 0; s < mdp_.states(); ++s) {
@@ -70,7 +74,8 @@ class EndingIteration {
     return 8.0 * half_ulp * size;
   }
 
-  // Step 2, first half. Returns the last change.
+  // Step 2, first half. Returns the last change. Counts evaluations in a row that were given up
+  // after a trial because the policy does not end.
   double evaluate(std::uint64_t most_sweeps) {
     const Result<Mdp> chain =
         induced_model(mdp_, as_probabilities(mdp_, solution_.policy), std::nullopt, outside_);
@@ -86,8 +91,25 @@ class EndingIteration {
       ++solution_.sweeps;
       solution_.backups += mdp_.states();
       go_on_ = may_continue(settings_, solution_, change);
+      if (k + 1 == trial && change > goal && go_on_) {
+        if (!ends(*chain)) {
+          ++endless_;
+          return change;
+        }
+        endless_ = 0;
+      }
     }
+    if (change <= goal) endless_ = 0;
     return change;
+  }
+
+  // Whether every live state of a policy's chain can come to its end.
+  bool ends(const Mdp& chain) const {
+    const std::vector<bool> can = can_end(chain);
+    for (State s = 0; s < mdp_.states(); ++s) {
+      if (live_[s] != 0 && !can[s]) return false;
+    }
+    return true;
   }
 
   // Step 2, second half: the largest gain of a switch, 0 if there was none.
@@ -112,13 +134,23 @@ class EndingIteration {
     return largest;
   }
 
-  // Step 4.
+  // Step 5.
   Solution finish() {
-    TotalCertificate certificate = certify_total(mdp_, live_, solution_.policy, value_);
-    solution_.lower = std::move(certificate.lower);
-    solution_.upper = std::move(certificate.upper);
+    if (endless_ > 0) {
+      solution_.lower.assign(mdp_.states(), 0.0);
+      solution_.upper.assign(mdp_.states(), 0.0);
+      for (State s = 0; s < mdp_.states(); ++s) {
+        if (mdp_.terminal(s)) continue;
+        solution_.lower[s] = -infinity;
+        solution_.upper[s] = live_[s] != 0 ? infinity : -infinity;
+      }
+    } else {
+      TotalCertificate certificate = certify_total(mdp_, live_, solution_.policy, value_);
+      solution_.lower = std::move(certificate.lower);
+      solution_.upper = std::move(certificate.upper);
+    }
     solution_.discount = 1.0;
-    conclude(solution_, settings_.width);
+    conclude(mdp_, solution_, settings_.width);
     return std::move(solution_);
   }
 
@@ -128,6 +160,7 @@ class EndingIteration {
   std::vector<double> value_;
   std::vector<bool> outside_;
   double reward_size_ = 0.0;
+  unsigned endless_ = 0;
   bool go_on_ = true;
   Solution solution_;
 };
@@ -137,11 +170,15 @@ class EndingIteration {
 Result<Solution> solve_undiscounted(const Mdp& mdp, const SolveSettings& settings,
                                     std::string_view method) {
   if (auto error = undiscounted_error(mdp)) return *error;
-  return solve_ending(mdp, settings, method);
+  return solve_ending(mdp, settings, method, unknown_states(mdp));
 }
 
-Solution solve_ending(const Mdp& mdp, const SolveSettings& settings, std::string_view method) {
+Solution solve_ending(const Mdp& mdp, const SolveSettings& settings, std::string_view method,
+                      const std::vector<bool>& unknown) {
   Ending ending = find_ending(mdp);
+  for (std::size_t s = 0; s < unknown.size(); ++s) {
+    if (unknown[s]) ending.live[s] = 0;
+  }
   Solution solution;
   if (mdp.deterministic()) {
     solution.policy = std::move(ending.policy);
@@ -154,6 +191,7 @@ Solution solve_ending(const Mdp& mdp, const SolveSettings& settings, std::string
       solution = thorough.run(true);
     }
   }
+  leave_unknown(mdp, unknown, settings.width, solution);
   solution.method = method;
   return solution;
 }

@@ -115,7 +115,7 @@ class ValueIteration {
       solution_.lower[s] = add_down(solution_.lower[s], bounds_.lower);
       solution_.upper[s] = add_up(solution_.upper[s], bounds_.upper);
     }
-    conclude(solution_, settings_.width);
+    conclude(mdp_, solution_, settings_.width);
     return std::move(solution_);
   }
 

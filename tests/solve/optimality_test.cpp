@@ -127,6 +127,26 @@ TEST(Optimality, NeverEndingAtDiscountOneIsNotOptimal) {
   EXPECT_EQ(good.regret, 0.0);
 }
 
+TEST(Optimality, DecidesDeterministicModelsWhoeverSolvedThem) {
+  // Bounds 30 wide say nothing about a loss of 16 at POOL (To-HALL, then To-CAVE), nor about none.
+  const Mdp mdp = test::adventure();
+  Result<Solution> exact = solve(mdp, {}, "value-iteration");
+  ASSERT_TRUE(exact);
+  std::vector<Action> policy = exact->policy;
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (mdp.terminal(s)) continue;
+    exact->lower[s] -= 15.0;
+    exact->upper[s] += 15.0;
+  }
+  const Optimality good = judge(mdp, *exact, policy, mdp.start(), 0.8);
+  EXPECT_EQ(good.optimal, std::optional(true)) << good.proof;
+  EXPECT_LT(good.regret, 1e-10);
+  policy[*mdp.find_state("POOL")] = 2;
+  const Optimality bad = judge(mdp, *exact, policy, mdp.start(), 0.8);
+  EXPECT_EQ(bad.optimal, std::optional(false)) << bad.proof;
+  EXPECT_NEAR(bad.regret, 16.0, 1e-9);
+}
+
 TEST(Optimality, QStarOfTheLecture) {
   // Q*(s, a) = r + 0.8 V*(next), with V* = 64, 80, 80, 100, 100, 0.
   const Mdp mdp = test::adventure();
