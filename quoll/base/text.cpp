@@ -235,6 +235,10 @@ std::string grouped(std::uint64_t value) {
   return text;
 }
 
+std::string counted(std::uint64_t value, std::string_view noun) {
+  return grouped(value) + " " + std::string(noun) + (value == 1 ? "" : "s");
+}
+
 Nearest::Nearest(std::string_view word) : word_(folded(word)), distance_(2 + word.size() / 4) {}
 
 void Nearest::offer(std::string_view name) {

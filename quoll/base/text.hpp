@@ -37,6 +37,9 @@ std::string nearest(std::string_view word, std::span<const std::string> names);
 /// "1,234,567" for people.
 std::string grouped(std::uint64_t value);
 
+/// "1 step", "2,000 steps": a count with its noun.
+std::string counted(std::uint64_t value, std::string_view noun);
+
 /// The nearest-name search over names that are made on demand.
 class Nearest {
  public:

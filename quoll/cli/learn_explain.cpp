@@ -115,10 +115,10 @@ std::string one_column(const Run& run, const ComingUpdates& coming) {
     sum += seen[i].reward;
     begins = update.terminated || update.truncated;
     if (!begins) continue;
-    text += fmt::format("episode {} {} {} after {} step{}{}\n", grouped(episode),
-                        update.terminated ? "ends at" : "is cut off at",
-                        mdp.state_name(update.next), grouped(steps), steps == 1 ? "" : "s",
-                        whole ? ", return " + number_text(sum) : "");
+    text +=
+        fmt::format("episode {} {} {} after {}{}\n", grouped(episode),
+                    update.terminated ? "ends at" : "is cut off at", mdp.state_name(update.next),
+                    counted(steps, "step"), whole ? ", return " + number_text(sum) : "");
     whole = true;
   }
   return text;

@@ -48,8 +48,9 @@ std::string heading(const Run& run) {
 
 // "stable after 213 steps": and what that means.
 std::string stop_sentence(const Run& run, const SeedResult& seed) {
-  const std::string after = fmt::format(" after {} steps, {} episodes, {}", grouped(seed.steps),
-                                        grouped(seed.episodes), duration_text(seed.seconds));
+  const std::string after =
+      fmt::format(" after {}, {}, {}", counted(seed.steps, "step"),
+                  counted(seed.episodes, "episode"), duration_text(seed.seconds));
   const Result<TabularSetup> setup = resolve(run.settings().learn, run.world());
   switch (seed.stop) {
     case Stop::stable: {
@@ -234,8 +235,8 @@ std::string learn_text(const Run& run, const RunResult& result, const TerminalSt
   text += verdict(run, result, first);
   text += curve_line(run, style);
   if (first.played.episodes > 0) {
-    text += fmt::format("greedy policy: mean return {} over {} episodes, {:.0f} % reach an end\n",
-                        number_text(first.played.mean), grouped(first.played.episodes),
+    text += fmt::format("greedy policy: mean return {} over {}, {:.0f} % reach an end\n",
+                        number_text(first.played.mean), counted(first.played.episodes, "episode"),
                         100 * first.played.ended);
   }
   return text + next_steps(run);

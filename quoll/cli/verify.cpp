@@ -76,7 +76,7 @@ std::string verify_text(const Run& run, const JudgedRun& judged) {
       run.world().name, run.settings().learn.rule, shortest(run.discount()), judged.exact.method);
   for (const JudgedSeed& seed : judged.seeds) {
     const Optimality& judgement = seed.optimality;
-    text += fmt::format("seed {}, {} steps: optimal {} ({})", seed.seed, grouped(seed.steps),
+    text += fmt::format("seed {}, {}: optimal {} ({})", seed.seed, counted(seed.steps, "step"),
                         !judgement.optimal   ? "not decided"
                         : *judgement.optimal ? "yes"
                                              : "no",

@@ -45,9 +45,16 @@ void drop_impossible_outcomes(MdpArrays& a) {
   if (!a.outcome_reward.empty()) a.outcome_reward.resize(kept);
 }
 
+// One zero: -0 and 0 are equal numbers with different bits.
+void unsign_zeros(std::vector<double>& rewards) {
+  for (double& reward : rewards) reward += 0.0;
+}
+
 // The expected reward of each choice. Equal outcome rewards are taken as they are: their weighted
 // sum might differ from them by rounding.
 void expect_rewards(MdpArrays& a) {
+  unsign_zeros(a.reward);
+  unsign_zeros(a.outcome_reward);
   if (a.outcome_reward.empty()) return;
   const std::size_t choices = a.action.size();
   a.reward.resize(choices);

@@ -164,7 +164,7 @@ double value_font(const Frame& f) {
     widest = std::max(widest, text_width(cell_number(f.view.value[s]), 1));
   }
   // Arrows need a third of the cell at the sides.
-  const double font = std::min(f.size * 0.26, widest > 0 ? f.size * 0.64 / widest : 0);
+  const double font = std::min(f.size * 0.24, widest > 0 ? f.size * 0.56 / widest : 0);
   return font >= 9 ? font : 0;
 }
 

@@ -173,5 +173,11 @@ TEST(Text, Grouped) {
   EXPECT_EQ(grouped(1234567), "1,234,567");
 }
 
+TEST(Text, ACountHasItsNoun) {
+  EXPECT_EQ(counted(0, "step"), "0 steps");
+  EXPECT_EQ(counted(1, "step"), "1 step");
+  EXPECT_EQ(counted(12345, "step"), "12,345 steps");
+}
+
 }  // namespace
 }  // namespace quoll

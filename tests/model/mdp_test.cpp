@@ -210,6 +210,13 @@ TEST(Mdp, RefusesArraysThatDoNotFit) {
   EXPECT_EQ(refusal(a), "layout: cell 2 of 2");
 }
 
+TEST(Mdp, KnowsOneZeroOnly) {
+  MdpArrays a = two_states();
+  a.reward = {-0.0, -1.0};
+  const auto mdp = Mdp::make(std::move(a));
+  EXPECT_FALSE(std::signbit(mdp->reward(0)));
+}
+
 TEST(Mdp, CountsItsBytes) {
   const auto mdp = Mdp::make(two_states());
   // 3 + 3 offsets, 3 successors, 3 probabilities, 2 rewards, 2 actions: 48 + 12 + 24 + 16 + 8.
