@@ -15,17 +15,9 @@
 namespace quoll::cli {
 namespace {
 
-struct CheckSettings {
-  double discount = 0.0;
-
-  void describe(Describer& d) {
-    d("discount", discount, 0, 1, "discount factor to check with; 0 = the world's own");
-  }
-};
-
 struct CheckOptions {
   WorldOption world;
-  GivenSettings given;
+  std::string discount;
   bool json = false;
 };
 
@@ -124,12 +116,13 @@ std::string check_text(const std::string& world, const Checked& checked) {
 }
 
 Exit check_world(const CheckOptions& options) {
-  CheckSettings asked;
-  const Result<void> applied = options.given.apply(settings_of(asked));
-  if (!applied) return fail(applied.error());
   Result<MdpArrays> arrays = open_arrays(options);
   if (!arrays) return fail(arrays.error());
-  if (asked.discount > 0.0) arrays->discount = asked.discount;
+  if (!options.discount.empty()) {
+    const Result<double> discount = parse_discount(options.discount);
+    if (!discount) return fail(discount.error());
+    arrays->discount = *discount;
+  }
   const Result<Checked> checked = examine(std::move(*arrays));
   if (!checked) return fail(checked.error());
   const std::string& name = options.world.name;
@@ -143,9 +136,9 @@ Exit check_world(const CheckOptions& options) {
 
 void declare_check(Options& options) {
   auto given = std::make_shared<CheckOptions>();
-  CheckSettings defaults;
   given->world.declare(options);
-  given->given.declare_flags(options, settings_of(defaults));
+  options.option("--discount,--gamma", &given->discount, "number in (0, 1]",
+                 "discount factor to check with; without it the world's own");
   options.flag("--json", &given->json, "print one JSON object on stdout");
   options.run([given] { return check_world(*given); });
 }

@@ -1,6 +1,7 @@
 #include "quoll/cli/common.hpp"
 
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "quoll/base/file.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/experiment/config.hpp"
 #include "quoll/report/progress.hpp"
@@ -118,6 +120,38 @@ Result<void> GivenSettings::apply(std::vector<Setting> settings) const {
     if (!assigned) return assigned;
   }
   return {};
+}
+
+Result<double> parse_discount(const std::string& text) {
+  const auto number = parse_number(text);
+  if (number && *number > 0.0 && *number <= 1.0) return *number;
+  return Error{"--discount", 0, 0, "a number in (0, 1] expected, not '" + text + "'", ""};
+}
+
+Result<void> GivenSettings::check_discount() const {
+  const auto pairs = given();
+  if (!pairs) return pairs.error();
+  for (const auto& [key, text] : *pairs) {
+    if (key != "discount") continue;
+    const Result<double> discount = parse_discount(text);
+    if (!discount) return discount.error();
+  }
+  return {};
+}
+
+Result<void> write_output(const std::string& path, std::string_view content,
+                          std::initializer_list<std::string> inputs) {
+  struct stat output{};
+  const bool exists = stat(path.c_str(), &output) == 0 && S_ISREG(output.st_mode);
+  for (const std::string& name : inputs) {
+    struct stat input{};
+    if (!exists || stat(name.c_str(), &input) != 0) continue;
+    if (input.st_dev == output.st_dev && input.st_ino == output.st_ino) {
+      return Error{path, 0, 0, "this file was read here, -o would replace it: give another name",
+                   ""};
+    }
+  }
+  return write_file(path, content);
 }
 
 bool print(const std::string& text) {

@@ -1,6 +1,7 @@
 #pragma once
 // What the verbs share: opening worlds, settings from flags and files, output, errors, interrupts.
 
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -15,6 +16,9 @@
 #include "quoll/report/table.hpp"
 
 namespace quoll::cli {
+
+/// A discount somebody gave: a number in (0, 1].
+Result<double> parse_discount(const std::string& text);
 
 /// Prints "quoll: message" on stderr.
 Exit fail(const Error& error);
@@ -52,7 +56,14 @@ struct GivenSettings {
   Result<void> apply(std::vector<Setting> settings) const;
   /// Keys given by flag or --set, with their texts.
   Result<std::vector<std::pair<std::string, std::string>>> given() const;
+  /// Refuses a discount given by flag or --set outside (0, 1].
+  Result<void> check_discount() const;
 };
+
+/// write_file(), but refuses a path that is the same file as one of `inputs`, the files that were
+/// read (worlds, runs, policies; names that are no files do not count).
+Result<void> write_output(const std::string& path, std::string_view content,
+                          std::initializer_list<std::string> inputs);
 
 /// The text on stdout, at once; false (with a message) when it cannot be written.
 bool print(const std::string& text);

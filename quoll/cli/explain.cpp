@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "quoll/base/text.hpp"
 #include "quoll/cli/initial_rewards.hpp"
@@ -20,13 +21,15 @@ namespace {
 // The trace of the lecture's slides.
 constexpr std::string_view lecture_trace = "HALL:To-CAVE, CAVE:To-GOAL, HALL:To-CAVE";
 constexpr std::size_t most_revisits = 50;
+constexpr std::uint64_t most_steps = 65536;
 
 struct ExplainOptions {
   WorldOption world;
   OutputOption output;
   GivenSettings how;
-  std::string trace, state, run;
-  unsigned steps = 0;
+  std::string state, run;
+  std::optional<std::string> trace, steps_text;
+  std::uint64_t steps = 0;  // 0 = not given
 };
 
 // What is explained: a way to learn, and the updates it made.
@@ -99,13 +102,13 @@ Result<Lesson> lesson_of(const ExplainOptions& options, const World& world) {
   if (!setup) return setup.error();
   lesson.setup = *setup;
 
-  const bool lecture = options.trace.empty() && options.steps == 0 && world.name == "adventure" &&
+  const bool lecture = !options.trace && options.steps == 0 && world.name == "adventure" &&
                        parse_trace(world, lecture_trace);
-  if (!lecture && options.trace.empty()) {
+  if (!lecture && !options.trace) {
     own_updates(lesson, options.steps);
   } else {
     Result<std::vector<Update>> script =
-        parse_trace(world, lecture ? lecture_trace : options.trace);
+        parse_trace(world, lecture ? lecture_trace : std::string_view(*options.trace));
     if (!script) return script.error();
     lesson.updates = lesson.entry->replay(lesson.setup, *script);
     lesson.origin = lecture ? "The lecture's trace:" : "The trace given:";
@@ -150,20 +153,20 @@ std::string rule_text(const Lesson& lesson) {
   return "Q(s,a) := Q(s,a) + step size * (r + discount * max Q(s',.) - Q(s,a))\n";
 }
 
-// Why a value above the bound estimates nothing.
+// Why a value above the bound estimates nothing; empty when none is.
 std::string proof_text(const Lesson& lesson, const Mdp& mdp) {
   const double bound = lesson.setup.value_bound;
   if (!(bound > 0.0)) return "";
+  const auto found = std::find_if(lesson.updates.begin(), lesson.updates.end(),
+                                  [&](const Update& u) { return lesson.impossible(u); });
+  if (found == lesson.updates.end()) return "";
   const double discount = lesson.setup.discount;
-  std::string text = fmt::format(
+  const std::string text = fmt::format(
       "The proof that this is no value: a reward is at most {} and the future counts {} per step, "
       "so\n"
       "nobody can ever earn more than {} / (1 - {}) = {}.",
       number_text(bound * (1.0 - discount)), number_text(discount),
       number_text(bound * (1.0 - discount)), number_text(discount), number_text(bound));
-  const auto found = std::find_if(lesson.updates.begin(), lesson.updates.end(),
-                                  [&](const Update& u) { return lesson.impossible(u); });
-  if (found == lesson.updates.end()) return text + " Nothing above has passed that yet.\n";
   const auto visits = std::count_if(lesson.updates.begin(), found + 1, [&](const Update& u) {
     return u.state == found->state && u.action == found->action && u.best_next != 0.0;
   });
@@ -279,18 +282,35 @@ std::string lesson_json(const Lesson& lesson, const World& world, bool all) {
   return json.text() + "\n";
 }
 
+Result<void> check_words(const ExplainOptions& options) {
+  if (!options.state.empty() && (options.trace || options.steps_text)) {
+    return Error{
+        "explain", 0, 0,
+        fmt::format("either --state or {}, not both", options.trace ? "--trace" : "--steps"), ""};
+  }
+  if (options.trace && options.steps_text) {
+    return Error{"explain", 0, 0, "either --trace or --steps, not both", ""};
+  }
+  if (!options.run.empty() && options.state.empty()) {
+    return Error{"--run", 0, 0, "needs --state STATE: whose learned values?", ""};
+  }
+  if (options.steps_text && options.steps == 0) {
+    return Error{"--steps", 0, 0,
+                 fmt::format("a whole number from 1 to {} expected, not '{}'", most_steps,
+                             *options.steps_text),
+                 ""};
+  }
+  return options.how.check_discount();
+}
+
 Exit explain(const ExplainOptions& options) {
   const Result<World> world = options.world.open();
   if (!world) return fail(world.error());
   if (!world->mdp) {
     return fail({"explain", 0, 0, "the model of " + world->name + " is not known", ""});
   }
-  if (!options.state.empty() && !options.trace.empty()) {
-    return fail({"explain", 0, 0, "either --state or --trace, not both", ""});
-  }
-  if (!options.run.empty() && options.state.empty()) {
-    return fail({"--run", 0, 0, "needs --state STATE: whose learned values?", ""});
-  }
+  const Result<void> fits = check_words(options);
+  if (!fits) return fail(fits.error());
   if (!options.state.empty()) {
     LearnSettings settings;
     const Result<void> applied = options.how.apply(settings_of(settings));
@@ -311,14 +331,26 @@ void declare_explain(Options& options) {
   auto given = std::make_shared<ExplainOptions>();
   LearnSettings defaults;
   given->world.declare(options);
-  options.option("--trace", &given->trace, "STATE:MOVE,...",
+  const auto take_trace = [given](const std::string& text) { given->trace = text; };
+  options.option("--trace", take_trace, "STATE:MOVE,...",
                  "the transitions to explain; for the adventure the lecture's");
-  options.option("--steps", &given->steps, "N",
+  const auto take_steps = [given](const std::string& text) {
+    given->steps_text = text;
+    const auto count = parse_count(text);
+    given->steps = count && *count <= most_steps ? *count : 0;
+  };
+  options.option("--steps", take_steps, "N",
                  "the first N steps of a run; without it the first episode, at most 10 steps");
   options.option("--state", &given->state, "STATE", "where the values of one state come from");
   options.option("--run", &given->run, "FILE",
                  "with --state: the values of a saved run beside them");
-  given->how.declare(options, settings_of(defaults));
+  std::vector<Setting> settings = settings_of(defaults);
+  for (Setting& setting : settings) {
+    if (setting.name == "discount") {
+      setting.sentence = "discount factor of the future, above 0; without it the world's own";
+    }
+  }
+  given->how.declare(options, std::move(settings));
   given->output.declare(options, "");
   options.run([given] { return explain(*given); });
 }

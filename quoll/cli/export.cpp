@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "quoll/base/file.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
 #include "quoll/cli/judged_run.hpp"
@@ -69,7 +68,12 @@ Result<std::vector<std::string>> origin(const Run& run, const JudgedRun& judged)
   return lines;
 }
 
-Result<std::string> exported(const ExportOptions& options, const Target& target) {
+struct Exported {
+  std::string text;
+  std::string world;  // the name of the world, perhaps a file's
+};
+
+Result<Exported> exported(const ExportOptions& options, const Target& target) {
   const std::string file = run_file(options.run);
   const Result<Run> run = Run::load(file, false);
   if (!run) return run.error();
@@ -93,16 +97,17 @@ Result<std::string> exported(const ExportOptions& options, const Target& target)
     policy.origin = {"No certificate: " + message(judged.error())};
   }
   policy.policy = actions;
-  return target.write(policy);
+  return Exported{target.write(policy), run->source().name};
 }
 
 Exit export_policy(const ExportOptions& options) {
   const Result<const Target*> target = find_target(options);
   if (!target) return fail(target.error());
-  const Result<std::string> text = exported(options, **target);
-  if (!text) return fail(text.error());
-  if (options.file.empty()) return print(*text) ? done : user_error;
-  const Result<void> written = write_file(options.file, *text);
+  const Result<Exported> out = exported(options, **target);
+  if (!out) return fail(out.error());
+  if (options.file.empty()) return print(out->text) ? done : user_error;
+  const Result<void> written =
+      write_output(options.file, out->text, {run_file(options.run), out->world});
   if (!written) return fail(written.error());
   return done;
 }

@@ -6,6 +6,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -111,7 +112,8 @@ void add_option(CLI::App& app, const Option& option) {
           const auto take = [target, names = option.names](const std::string& text) {
             const auto count = parse_count(text);
             if (!count || *count > 65536) {
-              throw CLI::ValidationError(names, "a whole number expected, not '" + text + "'");
+              throw CLI::ValidationError(
+                  names, "a whole number from 0 to 65536 expected, not '" + text + "'");
             }
             *target = static_cast<unsigned>(*count);
           };
@@ -146,7 +148,13 @@ int run(int argc, char** argv) {
     print(app.help());
     return user_error;
   }
-  const std::string first = argv[1];
+  // "help VERB" is "VERB --help".
+  std::vector<const char*> words(argv, argv + argc);
+  if (std::string_view(words[1]) == "help") {
+    words.erase(words.begin() + 1);
+    words.push_back("--help");
+  }
+  const std::string first = words[1];
   if (first == "--man") return print(manual_page()) ? done : user_error;
   if (first == "--completion") {
     const std::string shell = argc > 2 ? argv[2] : "";
@@ -156,7 +164,7 @@ int run(int argc, char** argv) {
   Exit wrong = done;
   if (first_word_is_wrong(first, wrong)) return wrong;
   try {
-    app.parse(argc, argv);
+    app.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::CallForHelp&) {
     return print(app.help()) ? done : user_error;
   } catch (const CLI::Success& success) {

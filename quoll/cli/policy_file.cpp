@@ -7,6 +7,7 @@
 
 #include "quoll/base/file.hpp"
 #include "quoll/base/text.hpp"
+#include "quoll/cli/judged_run.hpp"
 #include "quoll/experiment/run.hpp"
 #include "quoll/model/digest.hpp"
 #include "quoll/model/formats/fields.hpp"
@@ -173,6 +174,8 @@ Result<std::vector<Action>> read_run_policy(const std::string& path, const World
         path, 0, 0,
         "this run learned " + run->source().name + ", which is not the model of " + world.name, ""};
   }
+  const std::string reason = unsound(*run);
+  if (!reason.empty()) return Error{path, 0, 0, "no policy to judge: " + reason, ""};
   return greedy_policy(run->trainings().front().learner().estimates());
 }
 
