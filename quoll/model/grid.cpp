@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "quoll/base/text.hpp"
+#include "quoll/model/letters.hpp"
 
 namespace quoll {
 namespace {
@@ -97,7 +98,11 @@ Result<Extent> measure(const Grid& grid, const Alphabet& alphabet) {
       const auto letter = static_cast<unsigned char>(row[c]);
       if (!alphabet.known[letter]) {
         const bool plain = letter > 0x20 && letter < 0x7f;
-        const std::string shown = plain ? std::string(1, row[c]) : "byte " + std::to_string(letter);
+        const std::size_t bytes =
+            letter < 0x80 ? 0 : letter_length(std::string_view(row).substr(c));
+        const std::string shown = plain || bytes > 0
+                                      ? row.substr(c, std::max<std::size_t>(bytes, 1))
+                                      : "byte " + std::to_string(letter);
         return fault("letter '" + shown + "' is not known; use # . S G P" +
                          (plain ? " or add 'reward." + shown + " = ...'" : std::string()),
                      r + 1, c + 1);
@@ -109,11 +114,6 @@ Result<Extent> measure(const Grid& grid, const Alphabet& alphabet) {
   }
   if (extent.open == extent.ends) return fault("expected at least one cell that is no wall or end");
   if (extent.open > max_states) return fault("expected at most 2^31 - 1 cells that are no walls");
-  if (extent.ends == 0 && grid.discount >= 1) {
-    return fault("expected an end (" +
-                 (grid.terminal.empty() ? std::string("terminal = G") : grid.terminal) +
-                 ") or a discount below 1");
-  }
   return extent;
 }
 

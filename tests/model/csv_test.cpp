@@ -258,6 +258,9 @@ TEST(Csv, SaysWhereAndWhatIsWrong) {
       {header + "\"A,go,B,1,0\n", "w.csv:2:1: expected a field in quotes that ends on its line"},
       {header + "\"A\"x,go,B,1,0\n", "w.csv:2:4: expected a field in quotes that ends on its line"},
       {header + "A,go,B\x01,1,0\n", "w.csv:2:6: expected a name without control characters"},
+      {header + "A,go,caf\xe9,1,0\n", "w.csv:2:6: expected a name in UTF-8"},
+      {"# actions = \"\"\n" + header + "A,go,B,1,0\n",
+       "w.csv:1:13: expected a name that is not empty"},
       {"# discuont = 0.9\n" + header,
        "w.csv:1:3: expected discount, start, terminal or actions, found 'discuont'; did you mean "
        "'discount'?"},
@@ -332,8 +335,7 @@ TEST(Csv, RefusesToWriteNamesItCannotHold) {
   ASSERT_TRUE(mdp);
   const auto text = write_csv(*mdp);
   ASSERT_FALSE(text);
-  EXPECT_EQ(message(text.error()),
-            "a CSV world cannot hold the name of state 0: it is empty or has control characters");
+  EXPECT_EQ(message(text.error()), "name of state 0: expected a name without control characters");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "quoll/model/check.hpp"
 #include "quoll/model/digest.hpp"
 #include "quoll/model/formats/format.hpp"
 #include "quoll/model/maze.hpp"
@@ -155,7 +156,7 @@ TEST(Grid, SaysWhereAndWhatIsWrong) {
        "g.txt:5:2: letter 'x' is not known; use # . S G P or add 'reward.x = ...'"},
       {"S.\t\n..G\n", "g.txt:1:3: letter 'byte 9' is not known; use # . S G P"},
       {"###\n#G#\n", "g.txt: expected at least one cell that is no wall or end"},
-      {"S..\n...\n", "g.txt: expected an end (GP) or a discount below 1"},
+      {"S.\xc3\xa9\n..G\n", "g.txt:1:3: letter '\xc3\xa9' is not known; use # . S G P"},
       {"slp = 0.1\nSG\n",
        "g.txt:1:1: expected moves, slip, move_reward, discount, terminal or reward.LETTER, found "
        "'slp'; did you mean 'slip'?"},
@@ -169,6 +170,17 @@ TEST(Grid, SaysWhereAndWhatIsWrong) {
   for (const auto& [text, expected] : cases) EXPECT_EQ(refusal(text), expected) << text;
   EXPECT_NE(refusal("discount = 0\nSG\n"), "accepted");
   EXPECT_NE(refusal("reward.A = nan\nSAG\n"), "accepted");
+}
+
+// Whether total reward is defined without an end depends on the discount asked for, which a reader
+// does not know.
+TEST(Grid, ReadsAPictureWithoutAnEnd) {
+  const Mdp m = model("S..\n...\n");
+  EXPECT_EQ(m.states(), 6u);
+  EXPECT_EQ(m.discount(), 1.0);
+  const std::vector<Finding> findings = check(m);
+  ASSERT_FALSE(findings.empty());
+  EXPECT_EQ(findings.front().kind, "no-end");
 }
 
 TEST(Grid, WritesWhatItReads) {

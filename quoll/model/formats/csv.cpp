@@ -18,6 +18,7 @@
 #include "quoll/model/formats/format.hpp"
 #include "quoll/model/formats/lines.hpp"
 #include "quoll/model/formats/mentions.hpp"
+#include "quoll/model/letters.hpp"
 #include "quoll/model/name_index.hpp"
 #include "quoll/model/rows.hpp"
 
@@ -127,7 +128,10 @@ bool CsvReader::read_property(std::string_view line) {
   if (key == "terminal") return read_mentions(line, equals + 1, terminal_);
   if (key == "actions") {
     if (!read_mentions(line, equals + 1, first_actions_)) return false;
-    for (const Mention& mention : first_actions_) actions_.insert(mention.text);
+    for (const Mention& mention : first_actions_) {
+      if (!check_name(mention.text, mention.line, mention.column)) return false;
+      actions_.insert(mention.text);
+    }
     return true;
   }
   const std::size_t column = static_cast<std::size_t>(key.data() - line.data()) + 1;
@@ -193,11 +197,9 @@ bool CsvReader::number_of(Column column, NameIndex& index, std::uint32_t& number
 
 // A name is checked once, when it is new.
 bool CsvReader::check_name(std::string_view name, std::uint64_t line, std::size_t column) {
-  for (const char letter : name) {
-    if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) {
-      error_ = {path_, line, column, "expected a name without control characters", ""};
-      return false;
-    }
+  if (const std::string_view reason = name_fault(name); !reason.empty()) {
+    error_ = {path_, line, column, std::string(reason), ""};
+    return false;
   }
   if (states_.size() <= max_states && actions_.size() <= max_states) return true;
   error_ = {path_, line, column, "expected below 2^31 states and actions", ""};

@@ -62,31 +62,11 @@ void write_properties(const Mdp& mdp, std::string& out) {
   }
 }
 
-// The first name a CSV world cannot hold, or nothing.
-Result<void> check_names(const Names& names, const std::string& what) {
-  for (std::uint64_t i = 0; i < names.size(); ++i) {
-    const std::string name = names[i];
-    bool plain = !name.empty();
-    for (const char letter : name) {
-      plain = plain && static_cast<unsigned char>(letter) >= 0x20 && letter != 0x7f;
-    }
-    if (!plain) {
-      return Error{"", 0, 0,
-                   "a CSV world cannot hold the name of " + what + " " + std::to_string(i) +
-                       ": it is empty or has control characters",
-                   ""};
-    }
-  }
-  return {};
-}
-
 }  // namespace
 
 Result<std::string> write_csv(const Mdp& mdp) {
-  for (const auto& checked : {check_names(mdp.arrays().state_names, "state"),
-                              check_names(mdp.arrays().action_names, "action")}) {
-    if (!checked) return checked.error();
-  }
+  const Result<void> proper = proper_names(mdp);
+  if (!proper) return proper.error();
   std::string out;
   write_properties(mdp, out);
   out += "state,action,next_state,probability,reward\n";

@@ -38,6 +38,9 @@ Result<MdpArrays> read_model_arrays(const std::string& path);
 /// The model in `content`, whose format and name in messages `path` gives; opens no file.
 Result<Mdp> parse_model(std::string_view content, const std::string& path);
 
+/// Refuses a model with a name that no reader would take back (quoll/model/letters.hpp).
+Result<void> proper_names(const Mdp& mdp);
+
 Result<MdpArrays> read_toml(std::string_view content, const std::string& path);
 Result<std::string> write_toml(const Mdp& mdp);
 

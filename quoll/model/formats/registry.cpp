@@ -4,6 +4,7 @@
 #include "quoll/base/file.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/model/formats/format.hpp"
+#include "quoll/model/letters.hpp"
 
 namespace quoll {
 
@@ -79,6 +80,20 @@ Result<Mdp> parse_model(std::string_view content, const std::string& path) {
   Result<Mdp> mdp = Mdp::make(*std::move(arrays));
   if (!mdp) return placed(mdp.error(), path);
   return mdp;
+}
+
+Result<void> proper_names(const Mdp& mdp) {
+  const auto proper = [](const Names& names, const std::string& what) -> Result<void> {
+    for (std::uint64_t i = 0; i < names.size(); ++i) {
+      const std::string_view reason = name_fault(names[i]);
+      if (reason.empty()) continue;
+      return Error{"", 0, 0,
+                   "name of " + what + " " + std::to_string(i) + ": " + std::string(reason), ""};
+    }
+    return {};
+  };
+  const Result<void> states = proper(mdp.arrays().state_names, "state");
+  return states ? proper(mdp.arrays().action_names, "action") : states;
 }
 
 }  // namespace quoll

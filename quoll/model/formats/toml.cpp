@@ -45,6 +45,7 @@ class std::basic_ifstream<char> : public std::istream {
 #include "quoll/base/text.hpp"
 #include "quoll/model/formats/format.hpp"
 #include "quoll/model/formats/toml_text.hpp"
+#include "quoll/model/letters.hpp"
 
 namespace quoll {
 
@@ -136,10 +137,18 @@ class Reader {
     return failed_ ? 0 : state(name, node.source().begin);
   }
 
-  std::uint32_t action(std::string_view name) {
+  void check_name(std::string_view name, toml::source_position at) {
+    const std::string_view reason = name_fault(name);
+    if (!reason.empty()) fail(at, std::string(reason));
+  }
+
+  std::uint32_t action(std::string_view name, toml::source_position at) {
     const auto [entry, added] = action_index_.try_emplace(
         std::string(name), static_cast<std::uint32_t>(action_names_.size()));
-    if (added) action_names_.emplace_back(name);
+    if (added) {
+      check_name(name, at);
+      action_names_.emplace_back(name);
+    }
     return entry->second;
   }
 
@@ -150,7 +159,9 @@ class Reader {
       fail(*node, "expected a list of action names");
       return;
     }
-    for (const toml::node& item : *list) action(text(item, "the name of an action in quotes"));
+    for (const toml::node& item : *list) {
+      action(text(item, "the name of an action in quotes"), item.source().begin);
+    }
   }
 
   void states(const toml::node* node) {
@@ -161,6 +172,7 @@ class Reader {
     }
     const std::vector<Entry> entries = in_order(*node->as_table());
     for (const Entry& entry : entries) {
+      check_name(entry.key, entry.at);
       state_index_.emplace(entry.key, static_cast<State>(state_names_.size()));
       state_names_.emplace_back(entry.key);
     }
@@ -171,7 +183,7 @@ class Reader {
       if (moves == nullptr) fail(*entry.value, "expected a table: action = \"NEXT STATE\"");
       if (failed_) return;
       for (const Entry& move : in_order(*moves)) {
-        a_.action.push_back(action(move.key));
+        a_.action.push_back(action(move.key, move.at));
         a_.choice_line.push_back(move.at.line);
         outcomes(*move.value);
         if (failed_) return;
@@ -309,6 +321,26 @@ class Reader {
   bool failed_ = false;
 };
 
+// The parser's own words stand behind ours, which say what to do.
+std::string syntax_sentence(std::string_view description) {
+  struct Meaning {
+    std::string_view sign, sentence;
+  };
+  static constexpr std::array<Meaning, 6> meanings{
+      {{"control characters", "a closing quotation mark on the same line"},
+       {"redefine", "every name once"},
+       {"tf-8", "text in UTF-8"},
+       {"end-of-file", "more than the file holds"},
+       {"end-of-line", "the rest of this line"},
+       {"", "KEY = VALUE or [TABLE]"}}};
+  for (const Meaning& meaning : meanings) {
+    if (description.find(meaning.sign) == std::string_view::npos) continue;
+    return "expected TOML: " + std::string(meaning.sentence) + " (" + std::string(description) +
+           ")";
+  }
+  return std::string(description);
+}
+
 }  // namespace
 
 Result<MdpArrays> read_toml(std::string_view content, const std::string& path) {
@@ -318,7 +350,7 @@ Result<MdpArrays> read_toml(std::string_view content, const std::string& path) {
   toml::parse_result file = toml::parse(content, path);
   if (!file) {
     const toml::source_position at = file.error().source().begin;
-    return Error{path, at.line, at.column, std::string(file.error().description()), ""};
+    return Error{path, at.line, at.column, syntax_sentence(file.error().description()), ""};
   }
   return Reader(path).read(file.table());
 }

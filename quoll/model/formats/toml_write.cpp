@@ -168,6 +168,8 @@ std::string toml_number(double value) {
 }
 
 Result<std::string> write_toml(const Mdp& mdp) {
+  const Result<void> proper = proper_names(mdp);
+  if (!proper) return proper.error();
   std::string text = "discount = " + toml_number(mdp.discount()) + "\nstart = " + start(mdp) + "\n";
   const std::vector<State>& terminal = mdp.arrays().terminal;
   for (std::size_t i = 0; i < terminal.size(); ++i) {

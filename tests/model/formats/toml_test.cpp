@@ -285,14 +285,41 @@ TEST(Toml, RoundTripOfTheAdventure) {
 TEST(Toml, RoundTripOfOddNames) {
   MdpBuilder builder(0.1 + 0.2);
   builder.action("never used");
-  builder.move("a b", "", "\"quoted\"", 1e300).move("uniform", "x.y", "", -0.0);
-  builder.move("\n\t\x01\x7f\\", "=", "\xc3\xa4", 123456789012345680.0).move("1", "2", "3", 5e-324);
+  builder.move("a b", "#", "\"quoted\"", 1e300).move("uniform", "x.y", "'", -0.0);
+  builder.move("[a]\\", "=", "\xc3\xa4", 123456789012345680.0).move("1", "2", "3", 5e-324);
   builder.start("uniform").terminal("3").terminal("a b");
   const auto mdp = builder.build();
   ASSERT_TRUE(mdp) << message(mdp.error());
   expect_round_trip(*mdp);
   const auto back = parsed(*write_toml(*mdp));
-  EXPECT_TRUE(std::signbit(back->reward(1)));
+  EXPECT_FALSE(std::signbit(back->reward(1)));  // a model has one zero
+}
+
+TEST(Toml, RefusesNamesThatAreNone) {
+  EXPECT_EQ(refusal("[states.A]\n\"g\\to\" = \"A\"\n"),
+            "w.toml:2:1: expected a name without control characters");
+  EXPECT_EQ(refusal("[states.\"\\u001b[31m\"]\ngo = \"A\"\n"),
+            "w.toml:1:9: expected a name without control characters");
+  EXPECT_EQ(refusal("[states.\"\"]\n"), "w.toml:1:9: expected a name that is not empty");
+  EXPECT_EQ(refusal("actions = [\"\"]\n[states.A]\ngo = \"A\"\n"),
+            "w.toml:1:12: expected a name that is not empty");
+  const auto mdp = MdpBuilder(0.5).move("A\n", "go", "B").build();
+  ASSERT_TRUE(mdp);
+  const auto text = write_toml(*mdp);
+  ASSERT_FALSE(text);
+  EXPECT_EQ(message(text.error()), "name of state 0: expected a name without control characters");
+}
+
+TEST(Toml, SyntaxErrorsSayWhatToDo) {
+  EXPECT_EQ(refusal("[states.A]\ngo = \"A\n")
+                .find("w.toml:2:8: expected TOML: a closing quotation mark on the same line ("),
+            0u);
+  EXPECT_EQ(
+      refusal("[states.A]\n[states.A]\n").find("w.toml:2:1: expected TOML: every name once ("), 0u);
+  EXPECT_EQ(refusal("discount 3\n").find("w.toml:1:"), 0u);
+  EXPECT_NE(refusal("discount 3\n").find("expected TOML: KEY = VALUE or [TABLE] ("),
+            std::string::npos)
+      << refusal("discount 3\n");
 }
 
 TEST(Toml, RoundTripOfRandomModels) {
