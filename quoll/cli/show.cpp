@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "quoll/base/file.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/report/curve_svg.hpp"
@@ -26,9 +25,7 @@ struct ShowOptions {
 
 Result<double> discount_of(const std::string& text, double otherwise) {
   if (text.empty()) return otherwise;
-  const auto number = parse_number(text);
-  if (number && *number > 0.0 && *number <= 1.0) return *number;
-  return Error{"--discount", 0, 0, "a number in (0, 1] expected, not '" + text + "'", ""};
+  return parse_discount(text);
 }
 
 // What is drawn when nobody says.
@@ -88,6 +85,7 @@ std::string policy_table(const Exhibit& exhibit, bool all) {
   view.mdp = exhibit.mdp;
   view.lower = exhibit.value;
   view.upper = exhibit.value;
+  view.title = exhibit.learned ? "max Q" : "V*";
   view.policy = exhibit.policy;
   view.optimal = exhibit.best;
   view.states = all ? 0 : 20;
@@ -179,7 +177,8 @@ Exit present(const Exhibit& exhibit, const ShowOptions& options, const std::stri
   }
   const Result<Picture> drawn = picture(exhibit, kind, options.world.name);
   if (!drawn) return fail(drawn.error());
-  const Result<void> written = write_file(options.file, drawn->svg);
+  const Result<void> written =
+      write_output(options.file, drawn->svg, {options.world.name, options.run});
   return written ? done : fail(written.error());
 }
 

@@ -77,10 +77,11 @@ struct QTableView {
 /// "<- best" the policy's. Cost: the states shown.
 std::string q_table(const QTableView& view);
 
-/// What a table of exact values shows.
+/// What a table of values shows.
 struct ValueTableView {
   const Mdp* mdp = nullptr;
   std::span<const double> lower, upper;   ///< per state
+  std::string title = "V*";               ///< what the values are
   std::span<const Action> policy;         ///< per state; may be empty
   std::span<const std::uint8_t> optimal;  ///< per choice, 1 = optimal; may be empty
   std::uint64_t states = 20;              ///< at most so many; 0 = all

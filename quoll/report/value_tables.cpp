@@ -106,8 +106,10 @@ std::string value_table(const ValueTableView& view) {
   for (State s = 0; s < shown; ++s) {
     interval = interval || number_text(view.lower[s]) != number_text(view.upper[s]);
   }
-  std::vector<TextTable::Column> columns{{"state", Align::left}, {"V*", Align::point}};
-  if (interval) columns = {{"state", Align::left}, {"V* from", Align::point}, {"to", Align::point}};
+  std::vector<TextTable::Column> columns{{"state", Align::left}, {view.title, Align::point}};
+  if (interval) {
+    columns = {{"state", Align::left}, {view.title + " from", Align::point}, {"to", Align::point}};
+  }
   columns.push_back({view.policy.empty() ? "" : "best move", Align::left});
   TextTable table(std::move(columns));
   for (State s = 0; s < shown; ++s) {
