@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "quoll/model/graph.hpp"
+#include "quoll/solve/chain_elimination.hpp"
 #include "quoll/solve/functional_graph.hpp"
 #include "quoll/solve/induced.hpp"
 #include "quoll/solve/methods.hpp"
@@ -14,13 +16,14 @@ namespace quoll {
 
 namespace {
 
-bool converged(const Evaluation& evaluation, double width) {
-  double gap = 0.0;
-  for (std::size_t s = 0; s < evaluation.lower.size(); ++s) {
-    const double difference = evaluation.upper[s] - evaluation.lower[s];
-    if (difference < infinity) gap = std::max(gap, difference);
-  }
-  return gap <= width;
+void conclude(const Mdp& mdp, double width, Evaluation& evaluation) {
+  Solution bounds;  // what counts as close is the same for solutions
+  bounds.lower.swap(evaluation.lower);
+  bounds.upper.swap(evaluation.upper);
+  evaluation.gap = largest_gap(mdp, bounds);
+  evaluation.converged = evaluation.gap <= width;
+  evaluation.lower.swap(bounds.lower);
+  evaluation.upper.swap(bounds.upper);
 }
 
 Error policy_error(std::string expected) {
@@ -108,6 +111,33 @@ void spread(const Mdp& chain, std::vector<std::uint8_t>& fate) {
   }
 }
 
+// Values of the states without a fate: they all end. By elimination; by sweeps where that is too
+// much work.
+Evaluation evaluate_ending(const Mdp& chain, const std::vector<std::uint8_t>& fate,
+                           const SolveSettings& settings) {
+  std::vector<std::uint8_t> live(chain.states(), 0);
+  for (State s = 0; s < chain.states(); ++s) live[s] = fate[s] == 0 && !chain.terminal(s) ? 1 : 0;
+  bool stopped = false;
+  const auto keep_going = [&](std::uint64_t eliminated) {
+    stopped = settings.keep_going && !settings.keep_going({0, eliminated, infinity});
+    return !stopped;
+  };
+  std::optional<ChainValues> values = eliminate_chain(chain, live, keep_going);
+  if (values) return {std::move(values->lower), std::move(values->upper)};
+  if (!stopped) {
+    Solution solution = solve_ending(chain, settings, "policy-iteration");
+    return {std::move(solution.lower), std::move(solution.upper)};
+  }
+  Evaluation none{std::vector<double>(chain.states(), 0.0), {}};
+  none.upper = none.lower;
+  for (State s = 0; s < chain.states(); ++s) {
+    if (live[s] == 0) continue;
+    none.lower[s] = -infinity;
+    none.upper[s] = infinity;
+  }
+  return none;
+}
+
 Result<Evaluation> evaluate_undiscounted(const Mdp& mdp, std::span<const double> choice_probability,
                                          const SolveSettings& settings) {
   const Result<Mdp> chain = induced_model(mdp, choice_probability, std::nullopt);
@@ -120,8 +150,7 @@ Result<Evaluation> evaluate_undiscounted(const Mdp& mdp, std::span<const double>
   spread(*chain, fate);
   const Result<Mdp> ending = induced_model(mdp, choice_probability, std::nullopt, ended);
   if (!ending) return ending.error();
-  Solution solution = solve_ending(*ending, settings, "policy-iteration");
-  Evaluation out{std::move(solution.lower), std::move(solution.upper), false};
+  Evaluation out = evaluate_ending(*ending, fate, settings);
   for (State s = 0; s < mdp.states(); ++s) {
     if (fate[s] == 0) continue;
     out.lower[s] = fate[s] == gaining ? infinity : -infinity;
@@ -133,7 +162,7 @@ Result<Evaluation> evaluate_undiscounted(const Mdp& mdp, std::span<const double>
 }  // namespace
 
 Result<Evaluation> evaluate(const Mdp& mdp, std::span<const double> choice_probability,
-                            double discount, double width) {
+                            double discount, double width, const KeepGoing& keep_going) {
   if (choice_probability.size() != mdp.choices()) {
     return policy_error("one probability per state and action was expected");
   }
@@ -153,31 +182,34 @@ Result<Evaluation> evaluate(const Mdp& mdp, std::span<const double> choice_proba
   SolveSettings settings;
   settings.width = width;
   settings.discount = discount;
+  settings.keep_going = keep_going;
   const Result<double> valid = discount_in_use(mdp, settings);
   if (!valid) return valid.error();
   Result<Evaluation> out = discount == 1.0
                                ? evaluate_undiscounted(mdp, choice_probability, settings)
                                : evaluate_discounted(mdp, choice_probability, settings);
-  if (out) out->converged = converged(*out, width);
+  if (out) conclude(mdp, width, *out);
   return out;
 }
 
 Result<Evaluation> evaluate(const Mdp& mdp, std::span<const Action> policy, double discount,
-                            double width) {
+                            double width, const KeepGoing& keep_going) {
   if (policy.size() != mdp.states()) return policy_error("one action per state was expected");
   for (State s = 0; s < mdp.states(); ++s) {
     if (mdp.terminal(s) || policy[s] == no_action || policy[s] < mdp.actions(s)) continue;
     return policy_error("state " + mdp.state_name(s) + " has " + std::to_string(mdp.actions(s)) +
                         " actions, not one numbered " + std::to_string(policy[s]));
   }
-  if (!mdp.deterministic()) return evaluate(mdp, as_probabilities(mdp, policy), discount, width);
+  if (!mdp.deterministic()) {
+    return evaluate(mdp, as_probabilities(mdp, policy), discount, width, keep_going);
+  }
   SolveSettings settings;
   settings.discount = discount;
   const Result<double> valid = discount_in_use(mdp, settings);
   if (!valid) return valid.error();
   GraphValues values = evaluate_graph(mdp, policy, Discount(discount));
-  Evaluation out{std::move(values.lower), std::move(values.upper), false};
-  out.converged = converged(out, width);
+  Evaluation out{std::move(values.lower), std::move(values.upper)};
+  conclude(mdp, width, out);
   return out;
 }
 

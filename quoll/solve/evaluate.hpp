@@ -1,18 +1,25 @@
 #pragma once
 // What a policy is worth, state by state, as an interval that contains the true value.
 
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "quoll/base/error.hpp"
 #include "quoll/model/mdp.hpp"
+#include "quoll/solve/solver.hpp"
 
 namespace quoll {
+
+/// Called during long evaluations; false stops the work, and the interval so far is returned.
+using KeepGoing = std::function<bool(const SolveProgress&)>;
 
 struct Evaluation {
   std::vector<double> lower;  ///< per state
   std::vector<double> upper;  ///< per state
-  bool converged = false;     ///< largest finite upper - lower <= the width asked for
+  double gap = 0.0;  ///< largest upper - lower; states that cannot follow from the start and of
+                     ///< which nothing is known do not count
+  bool converged = false;  ///< gap <= the width asked for
 };
 
 /// The value of a deterministic policy (action per state; ends need none). A non-terminal state
@@ -20,15 +27,17 @@ struct Evaluation {
 /// state from which the policy may never end is worth -infinity where what it then earns is never
 /// positive and sometimes negative, +infinity in the mirrored case, and counts 0 where it earns
 /// nothing; undecided cases get the interval [-infinity, +infinity]. Deterministic models: exact
-/// along the graph, relative error about 4e-16 per step, O(states). Others: sweeps until `width`.
+/// along the graph, relative error about 4e-16 per step, O(states). Others: below
+/// discount 1 sweeps until `width`; at discount 1 elimination (chain_elimination.hpp), sweeps where
+/// that takes too long.
 /// Error: wrong length or an action a state does not have.
 Result<Evaluation> evaluate(const Mdp& mdp, std::span<const Action> policy, double discount,
-                            double width = 1e-9);
+                            double width = 1e-9, const KeepGoing& keep_going = {});
 
 /// The same for a policy that draws its action: probability of each choice, each state's summing to
 /// 1 within 1e-9; all zero = no action known.
 Result<Evaluation> evaluate(const Mdp& mdp, std::span<const double> choice_probability,
-                            double discount, double width = 1e-9);
+                            double discount, double width = 1e-9, const KeepGoing& keep_going = {});
 
 /// The policy that takes every action of a state equally often, for `evaluate`.
 std::vector<double> uniform_policy(const Mdp& mdp);

@@ -9,6 +9,7 @@
 #include "quoll/solve/ending.hpp"
 #include "quoll/solve/evaluate.hpp"
 #include "quoll/solve/functional_graph.hpp"
+#include "quoll/solve/induced.hpp"
 #include "quoll/solve/solver.hpp"
 #include "quoll/solve/span_bounds.hpp"
 #include "quoll/solve/sweep.hpp"
@@ -72,13 +73,13 @@ class Judge {
     for (const State s : asked_) {
       if (policy_[s] == no_action) return conclude(false, "no action is known in state ", s);
     }
-    if (shortest_ways()) return;
+    if (shortest_ways() || only_maximisers()) return;
     bool exact = true;
     std::optional<State> open;
     for (const State s : asked_) {
       const double loss = difference_up(upper_[s], value_.lower[s]);
       if (value_.lower[s] > upper_[s]) {
-        out_.proof = "not decided: the policy earns more by never ending from " + name(s);
+        out_.proof = "the policy earns more by never ending from " + name(s);
         return;
       }
       if (surely_lost(s)) return conclude(false, "more is earned by another action from ", s);
@@ -86,7 +87,7 @@ class Judge {
       if (!(loss <= tolerance * least_size(s)) && !open) open = s;
     }
     if (open) {
-      out_.proof = "not decided: in state " + name(*open) + " the bounds leave a loss of up to " +
+      out_.proof = "in state " + name(*open) + " the bounds leave a loss of up to " +
                    shortest(difference_up(upper_[*open], value_.lower[*open]));
       return;
     }
@@ -122,6 +123,64 @@ class Judge {
     // Each needless move then costs the share 1 - discount of V*.
     if (rewards->move != 0.0 || !(1.0 - discount.upper > 2.0 * tolerance)) return false;
     conclude(false, "exact graph: there is a shorter way from ", *longer);
+    return true;
+  }
+
+  // Every chosen action is better than all others of its state for certain, or the same as them:
+  // then the policy is optimal however wide the intervals are. At discount 1 it must end as well.
+  bool only_maximisers() {
+    for (const State s : asked_) {
+      const std::uint64_t chosen = mdp_.choice_begin(s) + policy_[s];
+      const double own = -q_up(chosen, -1.0);
+      for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
+        if (c != chosen && !(q_up(c, 1.0) < own) && !same_choice(c, chosen)) return false;
+      }
+      // Finite values of a policy that stays in a loop for nothing would not tell.
+      if (discount_ == 1.0 && stays(s)) return false;
+    }
+    if (asked_.empty()) return false;
+    out_.optimal = true;
+    out_.proof = "certified: every chosen action is better than all others of its state";
+    return true;
+  }
+
+  // Whether the policy may never end from s.
+  bool stays(State s) {
+    if (ends_.empty()) {
+      const Result<Mdp> chain = induced_model(mdp_, as_probabilities(mdp_, policy_), std::nullopt);
+      ends_.assign(mdp_.states(), false);
+      if (chain) ends_ = can_end(*chain);
+    }
+    return !ends_[s];
+  }
+
+  // An upper bound on sign * Q*(choice).
+  double q_up(std::uint64_t c, double sign) const {
+    const auto [low, high] = mdp_.reward_bounds();
+    const double reward_size = std::max(std::fabs(low), std::fabs(high));
+    const double outcomes = static_cast<double>(mdp_.outcome_end(c) - mdp_.outcome_begin(c));
+    double mean = 0.0;
+    for (std::uint64_t o = mdp_.outcome_begin(c); o < mdp_.outcome_end(c); ++o) {
+      const State next = mdp_.next(o);
+      const double value = sign > 0.0 ? upper_[next] : -best_lower(next);
+      const Meant p(mdp_.probability(o));
+      mean = add_up(mean, scale_up(value >= 0.0 ? std::min(1.0, p.upper) : p.lower, value));
+    }
+    const double q = backup_up(sign * mdp_.reward(c), Discount(discount_), mean);
+    return mdp_.deterministic() ? q : add_up(q, (outcomes + 3.0) * 2.0 * half_ulp * reward_size);
+  }
+
+  bool same_choice(std::uint64_t a, std::uint64_t b) const {
+    const std::uint64_t count = mdp_.outcome_end(a) - mdp_.outcome_begin(a);
+    if (count != mdp_.outcome_end(b) - mdp_.outcome_begin(b)) return false;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const std::uint64_t x = mdp_.outcome_begin(a) + i;
+      const std::uint64_t y = mdp_.outcome_begin(b) + i;
+      if (mdp_.next(x) != mdp_.next(y) || mdp_.probability(x) != mdp_.probability(y) ||
+          mdp_.reward(a, x) != mdp_.reward(b, y)) {
+        return false;
+      }
+    }
     return true;
   }
 
@@ -217,7 +276,8 @@ class Judge {
   std::vector<double> upper_;  // of V*
   bool along_graph_;           // the solution given is as tight as it gets
   std::vector<State> asked_;
-  Evaluation value_;  // of the policy
+  std::vector<bool> ends_;  // per state: the policy may end from here
+  Evaluation value_;        // of the policy
   Optimality out_;
 };
 
@@ -234,27 +294,7 @@ double q_star(const Mdp& mdp, std::span<const double> value, std::uint64_t choic
 }
 
 std::vector<Action> optimal_actions(const Mdp& mdp, const Solution& solution, State state) {
-  if (mdp.terminal(state)) return {};
-  const auto value = [&](State s) { return middle(solution.lower[s], solution.upper[s]); };
-  std::vector<double> q;
-  double best = -infinity;
-  for (std::uint64_t c = mdp.choice_begin(state); c < mdp.choice_end(state); ++c) {
-    double mean = 0.0;
-    for (std::uint64_t o = mdp.outcome_begin(c); o < mdp.outcome_end(c); ++o) {
-      mean += mdp.probability(o) * value(mdp.next(o));
-    }
-    q.push_back(mdp.reward(c) + solution.discount * mean);
-    best = std::max(best, q.back());
-  }
-  const double interval = solution.upper[state] == solution.lower[state]
-                              ? 0.0
-                              : solution.upper[state] - solution.lower[state];
-  const double within = std::max(tolerance * std::fabs(value(state)), interval);
-  std::vector<Action> actions;
-  for (Action a = 0; a < q.size(); ++a) {
-    if (q[a] == best || q[a] >= best - within) actions.push_back(a);
-  }
-  return actions;
+  return TiedActions(mdp, solution).of(state);
 }
 
 }  // namespace quoll

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "quoll/model/graph.hpp"
 #include "quoll/model/mdp.hpp"
 #include "quoll/model/solution.hpp"
 
@@ -34,8 +35,27 @@ Optimality judge(const Mdp& mdp, const Solution& exact, std::span<const Action> 
 /// One backup: reward of the choice plus discounted expected value of what follows.
 double q_star(const Mdp& mdp, std::span<const double> value, std::uint64_t choice, double discount);
 
+/// The actions that tie for the best, for many states of one model. Both arguments must outlive it.
+class TiedActions {
+ public:
+  TiedActions(const Mdp& mdp, const Solution& solution);
+  /// As optimal_actions(). Cost: that state's outcomes; at discount 1 where circles may earn
+  /// nothing, once the whole model and a search per tied action that circles.
+  std::vector<Action> of(State state) const;
+
+ private:
+  std::vector<Action> tied(State state) const;
+  bool leaves(State from, std::uint64_t choice) const;
+
+  const Mdp& mdp_;
+  const Solution& solution_;
+  bool may_circle_ = false;
+  mutable EndComponents circles_;  // of tied choices; found when first needed
+};
+
 /// All actions whose Q* is within max(1e-9 |V*|, width of the interval) of the best, ascending;
-/// empty for ends.
+/// empty for ends. At discount 1 without those that keep the value only by circling for ever for
+/// nothing: an optimal policy that ends takes each of them. For many states use TiedActions.
 std::vector<Action> optimal_actions(const Mdp& mdp, const Solution& solution, State state);
 
 }  // namespace quoll

@@ -32,6 +32,7 @@ ModelScale::ModelScale(const Mdp& mdp) {
 // factor 4 leaves room for the rounding of W' + k and of a checker's own sweep.
 SpanBounds span_bounds(const ModelScale& scale, double discount, double least, double greatest,
                        double size) {
+  if (scale.reward_size == 0.0 && size == 0.0) return {0.0, 0.0, 0.0};  // all is exactly 0
   const double operations = static_cast<double>(scale.most_outcomes) + 8.0;
   const double magnitude = scale.reward_size + scale.greatest_row_sum * size;
   const double error = 4.0 * half_ulp * operations * magnitude + 1e-300;

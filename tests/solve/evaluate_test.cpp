@@ -96,6 +96,53 @@ TEST(Evaluate, MixesActions) {
   }
 }
 
+TEST(Evaluate, FollowsLongWalksToTheirEnd) {
+  // A walk on 0..n that turns back at 0 and ends at n takes n^2 - k^2 moves on average from k:
+  // V(k) = 1 + (V(k - 1) + V(k + 1)) / 2 with V(0) = 1 + V(1). Exact in doubles.
+  constexpr int n = 2000;
+  MdpBuilder b(1.0);
+  b.move("0", "up", "1", -1);
+  for (int k = 1; k < n; ++k) {
+    b.move(std::to_string(k), "down", std::to_string(k - 1), -1);
+    b.move(std::to_string(k), "up", std::to_string(k + 1), -1);
+  }
+  const Mdp mdp = test::built(b);
+  const auto value = evaluate(mdp, uniform_policy(mdp), 1.0, 1e-11 * n * n);
+  ASSERT_TRUE(value);
+  EXPECT_TRUE(value->converged);
+  for (int k = 0; k < n; ++k) {
+    const State s = *mdp.find_state(std::to_string(k));
+    EXPECT_LE(value->lower[s], -(1.0 * n * n - 1.0 * k * k));
+    EXPECT_GE(value->upper[s], -(1.0 * n * n - 1.0 * k * k));
+  }
+}
+
+TEST(Evaluate, IsNotDoneWhereNothingIsKnown) {
+  // A circle that gains and loses: the total of an endless walk is not defined.
+  MdpBuilder b(1.0);
+  b.move("A", "go", "B", 1).move("B", "go", "A", -1).move("B", "out", "END", 0);
+  const Mdp mdp = test::built(b);
+  std::vector<double> circle(mdp.choices(), 0.0);
+  circle[mdp.choice_begin(*mdp.find_state("A"))] = 1.0;
+  circle[mdp.choice_begin(*mdp.find_state("B"))] = 1.0;
+  const auto value = evaluate(mdp, circle, 1.0);
+  ASSERT_TRUE(value);
+  EXPECT_FALSE(value->converged);
+}
+
+TEST(Evaluate, StopsWhenAsked) {
+  MdpBuilder b(1.0);
+  for (int k = 0; k < 600; ++k) {
+    b.move(std::to_string(k), "stay", std::to_string(k), -1);
+    b.move(std::to_string(k), "up", std::to_string(k + 1), -1);
+  }
+  const Mdp mdp = test::built(b);
+  const auto value =
+      evaluate(mdp, uniform_policy(mdp), 1.0, 1e-9, [](const SolveProgress&) { return false; });
+  ASSERT_TRUE(value);
+  EXPECT_FALSE(value->converged);
+}
+
 TEST(Evaluate, MixesActionsDiscounted) {
   // V(A) = (2 + V(A) / 2) / 2 + 0 / 2, so V(A) = 4/3.
   MdpBuilder b(0.5);

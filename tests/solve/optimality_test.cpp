@@ -175,5 +175,39 @@ TEST(Optimality, QStarOfTheLecture) {
   EXPECT_TRUE(optimal_actions(mdp, *exact, *mdp.find_state("GOAL")).empty());
 }
 
+TEST(Optimality, BetterThanAllOthersIsOptimalWhereTheValueIsZero) {
+  // V*(A) = 0.1 V*(B) / 2 - 0.1 V*(B) / 2 = 0: no loss is below 1e-9 of it, but "stop" earns -1.
+  MdpBuilder b(0.9);
+  b.move("A", "bet", "WON", 0.1, 0.5).move("A", "bet", "LOST", -0.1, 0.5);
+  b.move("A", "stop", "END", -1);
+  b.move("WON", "back", "A", 0.3, 0.5).move("WON", "back", "A2", -0.3, 0.5);
+  b.move("LOST", "out", "END", 0).move("A2", "out", "END", 0);
+  const Mdp mdp = test::built(b);
+  const auto exact = solve(mdp);
+  ASSERT_TRUE(exact);
+  const std::vector<State> from{*mdp.find_state("A")};
+  const Optimality good = judge(mdp, *exact, std::vector<Action>(mdp.states(), 0), from, 0.9);
+  EXPECT_EQ(good.optimal, std::optional<bool>(true)) << good.proof;
+  std::vector<Action> stop(mdp.states(), 0);
+  stop[from[0]] = 1;
+  EXPECT_EQ(judge(mdp, *exact, stop, from, 0.9).optimal, std::optional<bool>(false));
+}
+
+TEST(Optimality, CirclesForNothingAreNotOptimalMoves) {
+  // From A: a loop, a way over B and back, and the way out; B leads on to the end as well as back.
+  MdpBuilder b(1.0);
+  b.move("A", "loop", "A", 0).move("A", "over", "B", 0).move("A", "go", "END", 5);
+  b.move("B", "back", "A", 0).move("B", "go", "END", 5);
+  b.move("C", "back", "D", 0).move("D", "back", "C", 0).move("D", "go", "END", 5);
+  const Mdp mdp = test::built(b);
+  const auto exact = solve(mdp);
+  ASSERT_TRUE(exact);
+  const auto best = [&](const char* s) { return optimal_actions(mdp, *exact, *mdp.find_state(s)); };
+  EXPECT_EQ(best("A"), (std::vector<Action>{1, 2}));
+  EXPECT_EQ(best("B"), (std::vector<Action>{0, 1}));
+  EXPECT_EQ(best("C"), (std::vector<Action>{0}));
+  EXPECT_EQ(best("D"), (std::vector<Action>{1}));
+}
+
 }  // namespace
 }  // namespace quoll
