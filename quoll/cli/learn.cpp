@@ -1,17 +1,17 @@
 // quoll learn WORLD: learn by experience.
 
-#include <sys/stat.h>
-
+#include <algorithm>
 #include <chrono>
 
-#include "quoll/base/file.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
 #include "quoll/cli/initial_rewards.hpp"
 #include "quoll/cli/learn_explain.hpp"
+#include "quoll/cli/learn_files.hpp"
 #include "quoll/cli/learn_report.hpp"
+#include "quoll/cli/policy_file.hpp"
 #include "quoll/cli/verbs.hpp"
-#include "quoll/experiment/config.hpp"
+#include "quoll/model/digest.hpp"
 
 namespace quoll::cli {
 namespace {
@@ -24,10 +24,25 @@ struct LearnOptions {
   unsigned threads = 0;
   bool explain = false;
   std::string save, resume, save_every;
+
+  std::string resume_file() const { return resume.empty() ? "" : run_file(resume); }
 };
 
+// What a setting comes to in this world: 0, -1 and auto stand for something.
+std::string resolved_text(RunSettings settings, const World& world, const std::string& key) {
+  const std::vector<Setting> list = settings_of(settings);
+  const Setting& setting = *find(list, key);
+  const Result<TabularSetup> setup = resolve(settings.learn, world);
+  if (!setup) return text_of(setting);
+  if (setting.name == "discount") return shortest(setup->discount);
+  if (setting.name == "episode_steps") return std::to_string(setup->episode_steps);
+  if (setting.name == "tolerance") return shortest(setup->stable.tolerance);
+  if (setting.name == "step_size") return setup->step_size.text();
+  return text_of(setting);
+}
+
 // A resumed run takes its settings from the file: anything else given must agree.
-Result<void> agrees(const LearnOptions& options, const Run& run) {
+Result<void> same_settings(const LearnOptions& options, const Run& run) {
   RunSettings saved = run.settings();
   std::vector<Setting> settings = settings_of(saved);
   const auto given = options.how.given();
@@ -35,12 +50,15 @@ Result<void> agrees(const LearnOptions& options, const Run& run) {
   for (const auto& [key, text] : *given) {
     const Setting* setting = find(settings, key);
     if (!setting) return options.how.apply(settings);  // names the nearest
-    const std::string before = text_of(*setting);
-    const Result<void> assigned = assign(*setting, text, "--" + key);
+    std::string flag = "--" + key;
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    const std::string as_saved = text_of(*setting);
+    const std::string before = resolved_text(saved, run.world(), key);
+    const Result<void> assigned = assign(*setting, text, flag);
     if (!assigned) return assigned;
-    if (text_of(*setting) != before) {
+    if (text_of(*setting) != as_saved && resolved_text(saved, run.world(), key) != before) {
       return Error{
-          "--" + key, 0, 0,
+          flag, 0, 0,
           "the saved run has " + before + ", not " + text + "; a resumed run keeps its settings",
           ""};
     }
@@ -48,26 +66,57 @@ Result<void> agrees(const LearnOptions& options, const Run& run) {
   if (!options.how.config.empty()) {
     return Error{"--config", 0, 0, "a resumed run keeps its settings", ""};
   }
-  if (options.world.name != run.source().name) {
-    return Error{"--resume", 0, 0,
-                 "the saved run learns " + run.source().name + ", not " + options.world.name, ""};
-  }
+  return {};
+}
+
+bool same_model(const World& one, const World& other) {
+  if (one.mdp && other.mdp) return digest(*one.mdp) == digest(*other.mdp);
+  return !one.mdp && !other.mdp && one.name == other.name && one.parameters == other.parameters;
+}
+
+// The world of the command line is the run's, however it is spelled; its parameters may be left
+// out.
+Result<void> same_world(const LearnOptions& options, const Result<World>& given, const Run& run) {
   const Result<WorldSource> source = options.world.source();
   if (!source) return source.error();
-  if (!source->parameters.empty() && source->parameters != run.source().parameters) {
-    const auto words = [](const WorldSource& one) {
-      std::string text;
-      for (const auto& [key, value] : one.parameters) {
-        text += (text.empty() ? "" : " ") + key + "=" + value;
-      }
-      return text.empty() ? std::string("none") : text;
-    };
-    return Error{"--with", 0, 0,
-                 "the saved run has " + words(run.source()) + ", not " + words(*source) +
-                     "; a resumed run keeps its world",
-                 ""};
+  const bool same_name = source->name == run.source().name;
+  const auto& with = source->parameters;
+  if (same_name && (with.empty() || with == run.source().parameters)) return {};
+  if (given && same_model(*given, run.world())) return {};
+  if (!same_name && !given) return given.error();
+  if (!same_name) {
+    return Error{"--resume", 0, 0,
+                 "the saved run learns " + run.source().name + ", not " + source->name, ""};
   }
-  return {};
+  const auto words = [](const WorldSource& one) {
+    std::string text;
+    for (const auto& [key, value] : one.parameters) {
+      text += (text.empty() ? "" : " ") + key + "=" + value;
+    }
+    return text.empty() ? std::string("none") : text;
+  };
+  return Error{"--with", 0, 0,
+               "the saved run has " + words(run.source()) + ", not " + words(*source) +
+                   "; a resumed run keeps its world",
+               ""};
+}
+
+Result<Run> resume(const LearnOptions& options, bool watch) {
+  const Result<World> given = options.world.open();
+  Result<Run> run = Run::load(options.resume_file(), watch, given ? &*given : nullptr);
+  if (!run) return run;
+  Result<void> same = same_settings(options, *run);
+  if (same) same = same_world(options, given, *run);
+  if (!same) return same.error();
+  return run;
+}
+
+// Seconds between two savings; 0 = only at the end.
+Result<double> save_pause(const LearnOptions& options) {
+  if (options.save_every.empty()) return 0.0;
+  const Result<double> seconds = parse_duration(options.save_every, "--save-every");
+  if (seconds && options.save.empty()) return Error{"--save-every", 0, 0, "needs --save FILE", ""};
+  return seconds;
 }
 
 Result<RunSettings> limits_of(const LearnOptions& options) {
@@ -88,13 +137,9 @@ Result<RunSettings> limits_of(const LearnOptions& options) {
 
 Result<Run> open_run(const LearnOptions& options, const RunSettings& limits) {
   const bool watch = !limits.has_limit() || limits.until == "stable";
-  if (!options.resume.empty()) {
-    Result<Run> run = Run::load(options.resume, watch);
-    if (!run) return run;
-    const Result<void> same = agrees(options, *run);
-    if (!same) return same.error();
-    return run;
-  }
+  const Result<void> fits = options.how.check_discount();
+  if (!fits) return fits.error();
+  if (!options.resume.empty()) return resume(options, watch);
   RunSettings settings;
   const Result<void> applied = options.how.apply(settings_of(settings));
   if (!applied) return applied.error();
@@ -109,20 +154,11 @@ Result<Run> open_run(const LearnOptions& options, const RunSettings& limits) {
   return Run::start(settings, *source, *world, *rewards);
 }
 
-// Learns, saving every so often, until done or interrupted.
-Result<void> advance(Run& run, const LearnOptions& options, const RunSettings& limits,
-                     std::string& records) {
-  double pause = 0.0;
-  if (!options.save_every.empty()) {
-    const Result<double> seconds = parse_duration(options.save_every, "--save-every");
-    if (!seconds) return seconds.error();
-    if (options.save.empty()) return Error{"--save-every", 0, 0, "needs --save FILE", ""};
-    pause = *seconds;
-  }
-  const Sink sink = [&](const Record& record) {
-    records += std::to_string(record.step) + "," + std::to_string(record.lane) + "," +
-               std::string(record.name) + "," + shortest(record.value) + "\n";
-  };
+// Learns, saving every so often, until done or interrupted. The result of the last saving: a disk
+// that is full for a while ends no run.
+Result<void> advance(Run& run, const LearnOptions& options, const RunSettings& limits, double pause,
+                     RunFiles& files) {
+  const Sink sink = [&](const Record& record) { files.record(record); };
   ProgressDisplay display(options.output.quiet);
   const std::uint64_t total = limits.steps * run.trainings().size();
   std::uint64_t resumed = 0;
@@ -137,26 +173,11 @@ Result<void> advance(Run& run, const LearnOptions& options, const RunSettings& l
   };
   for (;;) {
     const bool finished =
-        run.advance(limits, pause, keep_going, options.output.file.empty() ? Sink() : sink);
-    if (!options.save.empty()) {
-      const Result<void> saved = run.save(options.save);
-      if (!saved) return saved;
-    }
-    if (finished || interrupted()) return {};
+        run.advance(limits, pause, keep_going, files.has_folder() ? sink : Sink());
+    const Result<void> saved = files.save(run);
+    if (finished || interrupted()) return saved;
+    if (!saved) fail(saved.error());
   }
-}
-
-// A run folder: settings.toml, records.csv, run.quoll.
-Result<void> write_folder(Run& run, const std::string& folder, const std::string& records) {
-  if (mkdir(folder.c_str(), 0777) != 0 && errno != EEXIST) {
-    return Error{folder, 0, 0, "the folder cannot be made", ""};
-  }
-  RunSettings settings = run.settings();
-  Result<void> written = write_file(folder + "/settings.toml", config_text(settings_of(settings)));
-  if (!written) return written;
-  written = write_file(folder + "/records.csv", "step,seed_index,name,value\n" + records);
-  if (!written) return written;
-  return run.save(folder + "/run.quoll");
 }
 
 Exit exit_status(const Run& run, const RunSettings& limits) {
@@ -170,33 +191,45 @@ Exit exit_status(const Run& run, const RunSettings& limits) {
   return done;
 }
 
+// Prints the result.
+Exit tell(const Run& run, const LearnOptions& options, const RunSettings& limits, Learner* twin,
+          const ComingUpdates* coming) {
+  const Result<StandardBeside> beside = standard_beside(run, twin);
+  if (!beside) return fail(beside.error());
+  const LearnStory story{options.output.all, limits.until == "stable", coming, &*beside};
+  const RunResult result = run.result(true);
+  const std::string text = options.output.json ? learn_json(run, result, story)
+                                               : learn_text(run, result, stdout_style(), story);
+  return print(text) ? done : user_error;
+}
+
 Exit learn(const LearnOptions& options) {
   const Result<RunSettings> limits = limits_of(options);
   if (!limits) return fail(limits.error());
+  const Result<double> pause = save_pause(options);
+  if (!pause) return fail(pause.error());
   Result<Run> run = open_run(options, *limits);
   if (!run) return fail(run.error());
   run->set_threads(options.threads);
+  const Result<std::unique_ptr<Learner>> twin = first_twin(*run);
+  if (!twin) return fail(twin.error());
   std::optional<ComingUpdates> coming;
   if (options.explain) {
     Result<ComingUpdates> made = coming_updates(*run, *limits, options.output.all);
     if (!made) return fail(made.error());
     coming = std::move(*made);
-    if (!options.output.json && !print(updates_text(*run, *coming))) return user_error;
   }
+  RunFiles files(options.save, options.output.file, options.resume_file());
+  const Result<void> prepared = files.prepare(*run);
+  if (!prepared) return fail(prepared.error());
+  if (coming && !options.output.json && !print(updates_text(*run, *coming))) return user_error;
   catch_interrupts();
-  std::string records;
-  const Result<void> learned = advance(*run, options, *limits, records);
-  if (!learned) return fail(learned.error());
-  if (!options.output.file.empty()) {
-    const Result<void> written = write_folder(*run, options.output.file, records);
-    if (!written) return fail(written.error());
-  }
-  const RunResult result = run->result(true);
-  const std::string text =
-      options.output.json
-          ? learn_json(*run, result, options.output.all, coming ? &*coming : nullptr)
-          : learn_text(*run, result, stdout_style(), options.output.all);
-  if (!print(text)) return user_error;
+  const Result<void> saved = advance(*run, options, *limits, *pause, files);
+  const Result<void> written = files.write_folder(*run);
+  const Exit told = tell(*run, options, *limits, twin->get(), coming ? &*coming : nullptr);
+  if (!saved) return fail(saved.error());
+  if (!written) return fail(written.error());
+  if (told != done) return told;
   return exit_status(*run, *limits);
 }
 
@@ -209,6 +242,10 @@ void declare_learn(Options& options) {
   defaults.describe(how);
   defaults.describe_limits(limits);
   given->world.declare(options);
+  for (Setting& setting : how.settings()) {
+    if (setting.name != "discount") continue;
+    setting.sentence = "discount factor of the future, above 0; without it the world's own";
+  }
   given->how.declare(options, how.settings());
   given->limits.declare_flags(options, limits.settings());
   options.option("--threads", &given->threads, "N",
@@ -216,7 +253,8 @@ void declare_learn(Options& options) {
   options.flag("--explain", &given->explain, "show each update with its numbers");
   options.option("--save", &given->save, "FILE", "write the run to a file when it ends");
   options.option("--save-every", &given->save_every, "TIME", "and every so often, such as 60s");
-  options.option("--resume", &given->resume, "FILE", "go on with a saved run");
+  options.option("--resume", &given->resume, "FILE",
+                 "go on with a saved run, a file or a run folder");
   given->output.declare(options, "a folder for settings.toml, records.csv and run.quoll");
   options.run([given] { return learn(*given); });
 }

@@ -86,6 +86,35 @@ Result<ComingUpdates> coming_updates(Run& run, const RunSettings& limits, bool a
   return coming;
 }
 
+Result<std::unique_ptr<Learner>> first_twin(Run& run) {
+  Learner& first = run.trainings().front().learner();
+  if (run.settings().learn.rule != "as-printed" || !run.world().mdp || first.progress().steps > 0) {
+    return std::unique_ptr<Learner>();
+  }
+  return copy_of(first, run);
+}
+
+Result<StandardBeside> standard_beside(const Run& run, Learner* twin) {
+  const std::uint64_t steps = run.trainings().front().learner().progress().steps;
+  StandardBeside beside;
+  if (twin == nullptr || steps > json_complete_rows) return beside;
+  std::vector<Update> log(steps);
+  if (steps > 0) log.resize(twin->advance(steps, log).logged);
+  const Result<std::vector<Update>> standard =
+      standard_beside(run.settings().learn, run.world(), log);
+  if (!standard) return standard.error();
+  const Mdp& mdp = *run.world().mdp;
+  beside.q.assign(mdp.choices(), 0.0);
+  for (const Update& update : *standard) {
+    beside.q[mdp.choice_begin(update.state) + update.action] = update.new_value;
+  }
+  if (const auto first = first_difference({&mdp, log, *standard})) {
+    beside.printed = log[*first];
+    beside.standard = (*standard)[*first];
+  }
+  return beside;
+}
+
 namespace {
 
 UpdateTeller teller_of(const Run& run, const ComingUpdates& coming) {

@@ -15,12 +15,13 @@ void optional_bool(JsonWriter& json, std::string_view key, const std::optional<b
 }
 
 void write_q(JsonWriter& json, const Mdp& mdp, const Estimates& estimates,
-             const std::vector<double>& q_star, bool all) {
+             const std::vector<double>& q_star, const LearnStory& story) {
   std::vector<State> owner(mdp.choices());
   for (State s = 0; s < mdp.states(); ++s) {
     for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) owner[c] = s;
   }
-  json.rows("q", mdp.choices(), all, [&](std::uint64_t c) {
+  const bool beside = story.beside != nullptr && !story.beside->q.empty();
+  json.rows("q", mdp.choices(), story.all, [&](std::uint64_t c) {
     json.begin_object();
     json.member("state", mdp.state_name(owner[c])).member("action", mdp.action_name(c));
     json.key("q").number(estimates.q[c], estimates.single_precision);
@@ -32,6 +33,7 @@ void write_q(JsonWriter& json, const Mdp& mdp, const Estimates& estimates,
     if (!estimates.reward_estimate.empty()) {
       json.member("reward_estimate", estimates.reward_estimate[c]);
     }
+    if (beside) json.member("standard", story.beside->q[c]);
     json.end_object();
   });
 }
@@ -105,10 +107,57 @@ void write_runs(JsonWriter& json, const RunResult& result) {
   json.end_array();
 }
 
+void write_verdict(JsonWriter& json, const SeedResult& seed) {
+  if (!seed.optimality) {
+    for (const char* key : {"optimal", "proof", "regret", "optimal_states", "unreachable"}) {
+      json.null_member(key);
+    }
+    return;
+  }
+  optional_bool(json, "optimal", seed.optimality->optimal);
+  json.member("proof", seed.optimality->proof).member("regret", seed.optimality->regret);
+  json.member("optimal_states", seed.optimal_states);
+  json.member("unreachable", seed.optimality->unreachable);
+}
+
+void write_impossible(JsonWriter& json, const Mdp* mdp, const Impossible& found) {
+  if (!found.found || mdp == nullptr) {
+    json.null_member("impossible");
+    return;
+  }
+  json.key("impossible").begin_object();
+  json.member("step", found.step).member("state", mdp->state_name(found.state));
+  json.member("action", mdp->action_name(mdp->choice_begin(found.state) + found.action));
+  json.member("value", found.value).member("bound", found.bound).end_object();
+}
+
+void write_first_difference(JsonWriter& json, const LearnStory& story) {
+  if (story.beside != nullptr && story.beside->printed)
+    json.member("first_difference", story.beside->printed->step);
+  else
+    json.null_member("first_difference");
+}
+
+void write_least_visited(JsonWriter& json, const Run& run, const RunResult& result,
+                         const LearnStory& story) {
+  const std::vector<PairVisits> pairs = least_visited(run, result, story);
+  if (pairs.empty()) {
+    json.null_member("least_visited");
+    return;
+  }
+  const Mdp& mdp = *run.world().mdp;
+  json.key("least_visited").begin_array();
+  for (const PairVisits& pair : pairs) {
+    json.begin_object().member("state", mdp.state_name(pair.state));
+    json.member("action", mdp.action_name(mdp.choice_begin(pair.state) + pair.action));
+    json.member("visits", pair.visits).end_object();
+  }
+  json.end_array();
+}
+
 }  // namespace
 
-std::string learn_json(const Run& run, const RunResult& result, bool all,
-                       const ComingUpdates* coming) {
+std::string learn_json(const Run& run, const RunResult& result, const LearnStory& story) {
   const LearnSettings& learn = run.settings().learn;
   const SeedResult& first = result.seeds.front();
   const Mdp* mdp = run.world().mdp.get();
@@ -129,47 +178,19 @@ std::string learn_json(const Run& run, const RunResult& result, bool all,
     const Estimates estimates = run.trainings().front().learner().estimates();
     write_q(json, *mdp, estimates,
             result.exact ? q_star_all(*mdp, *result.exact, run.discount()) : std::vector<double>(),
-            all);
-    write_policy(json, *mdp, first.policy, all);
+            story);
+    write_policy(json, *mdp, first.policy, story.all);
   } else {
     json.null_member("q").null_member("policy");
   }
-  const bool judged = first.optimality && run.entry().sound;
-  optional_bool(json, "optimal", judged ? first.optimality->optimal : std::nullopt);
-  json.key("proof");
-  if (first.optimality)
-    json.value(first.optimality->proof);
-  else
-    json.null();
-  json.key("regret");
-  if (judged)
-    json.value(first.optimality->regret);
-  else
-    json.null();
-  json.key("optimal_states");
-  if (judged) {
-    json.value(first.optimal_states);
-  } else {
-    json.null();
-  }
-  json.key("unreachable");
-  if (first.optimality)
-    json.value(first.optimality->unreachable);
-  else
-    json.null();
-  json.key("impossible");
-  if (first.impossible.found && mdp) {
-    const Impossible& found = first.impossible;
-    json.begin_object().member("step", found.step).member("state", mdp->state_name(found.state));
-    json.member("action", mdp->action_name(mdp->choice_begin(found.state) + found.action));
-    json.member("value", found.value).member("bound", found.bound).end_object();
-  } else {
-    json.null();
-  }
+  write_verdict(json, first);
+  write_impossible(json, mdp, first.impossible);
+  write_first_difference(json, story);
+  write_least_visited(json, run, result, story);
   write_certificate(json, run, result);
   write_evaluation(json, run, result);
   write_runs(json, result);
-  if (coming) write_updates(json, run, *coming, all);
+  if (story.coming) write_updates(json, run, *story.coming, story.all);
   json.end_object();
   return json.text() + "\n";
 }

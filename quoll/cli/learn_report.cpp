@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "quoll/base/text.hpp"
+#include "quoll/cli/explain.hpp"
 #include "quoll/model/graph.hpp"
 #include "quoll/report/curve.hpp"
+#include "quoll/report/explain_text.hpp"
 #include "quoll/report/grid_text.hpp"
 #include "quoll/report/progress.hpp"
 
@@ -47,7 +50,7 @@ std::string heading(const Run& run) {
 }
 
 // "stable after 213 steps": and what that means.
-std::string stop_sentence(const Run& run, const SeedResult& seed) {
+std::string stop_sentence(const Run& run, const SeedResult& seed, const LearnStory& story) {
   const std::string after =
       fmt::format(" after {}, {}, {}", counted(seed.steps, "step"),
                   counted(seed.episodes, "episode"), duration_text(seed.seconds));
@@ -69,7 +72,7 @@ std::string stop_sentence(const Run& run, const SeedResult& seed) {
     case Stop::interrupted:
       return "interrupted" + after;
     default:
-      return "stopped" + after + " as asked";
+      return missed_stable(seed, story) ? "not stable" + after : "stopped" + after + " as asked";
   }
 }
 
@@ -92,25 +95,14 @@ std::string impossible_text(const Run& run, const Impossible& impossible) {
                      shortest(impossible.value));
 }
 
-// The pairs that kept a run from being stable: those visited least.
-std::string least_visited(const Mdp& mdp, const Estimates& estimates, const TabularSetup& setup) {
-  std::vector<std::pair<std::uint32_t, std::uint64_t>> pairs;
-  const std::vector<bool> reached = reachable(mdp, setup.starts.states());
-  std::vector<State> owner;
-  for (State s = 0; s < mdp.states(); ++s) {
-    if (!reached[s] || mdp.terminal(s)) continue;
-    for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
-      pairs.emplace_back(estimates.visits[c], (std::uint64_t{s} << 32) | (c - mdp.choice_begin(s)));
-    }
-  }
-  const std::size_t shown = std::min<std::size_t>(10, pairs.size());
-  std::partial_sort(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(shown), pairs.end());
-  std::string text = "Least visited:";
-  for (std::size_t i = 0; i < shown; ++i) {
-    const auto state = static_cast<State>(pairs[i].second >> 32);
-    text += fmt::format("{} {} {} times", i > 0 ? "," : "",
-                        choice_name(mdp, state, static_cast<Action>(pairs[i].second)),
-                        grouped(pairs[i].first));
+std::string least_visited_text(const Run& run, const RunResult& result, const LearnStory& story) {
+  const std::vector<PairVisits> pairs = least_visited(run, result, story);
+  if (pairs.empty()) return "";
+  std::string text;
+  for (const PairVisits& pair : pairs) {
+    text += fmt::format("{}{} {}", text.empty() ? "Least visited: " : ", ",
+                        choice_name(*run.world().mdp, pair.state, pair.action),
+                        counted(pair.visits, "time"));
   }
   return text + "\n";
 }
@@ -142,7 +134,7 @@ std::string verdict(const Run& run, const RunResult& result, const SeedResult& s
   return text + "\n";
 }
 
-std::string seeds_table(const RunResult& result) {
+std::string seeds_table(const Run& run, const RunResult& result) {
   TextTable table({{"seed"},
                    {"steps", TextTable::Align::right},
                    {"stop"},
@@ -150,11 +142,13 @@ std::string seeds_table(const RunResult& result) {
                    {"regret", TextTable::Align::point},
                    {"mean return", TextTable::Align::point},
                    {"ended", TextTable::Align::right}});
+  const bool sound = run.entry().sound;
   for (const SeedResult& seed : result.seeds) {
     const bool judged = seed.optimality.has_value();
     const bool decided = judged && seed.optimality->optimal;
     table.row({std::to_string(seed.seed), grouped(seed.steps), std::string(stop_name(seed.stop)),
-               !decided                    ? "?"
+               !sound                      ? "-"
+               : !decided                  ? "?"
                : *seed.optimality->optimal ? "yes"
                                            : "no",
                judged ? number_text(seed.optimality->regret) : "", number_text(seed.played.mean),
@@ -188,49 +182,112 @@ std::string next_steps(const Run& run) {
                      name, run.world().name);
 }
 
+// The rule as-printed and the standard rule, where they part.
+std::string printed_text(const Run& run, const LearnStory& story) {
+  if (run.settings().learn.rule != "as-printed") return "";
+  std::string text;
+  if (!story.coming) text += as_printed_banner(run.settings().learn.initial_rewards == "zero");
+  if (!run.world().mdp || !story.beside) return text;
+  if (story.beside->q.empty()) {
+    return text + fmt::format(
+                      "The standard rule stands beside it in runs of at most {} steps from their "
+                      "beginning; see also quoll explain {} --rule as-printed.\n",
+                      grouped(json_complete_rows), run.source().name);
+  }
+  if (!story.beside->printed) return text + "The standard rule gives the same values here.\n";
+  const Update& printed = *story.beside->printed;
+  return text + fmt::format("First difference: step {}, QE{} = {}; the standard rule has {}.\n",
+                            grouped(printed.step),
+                            choice_name(*run.world().mdp, printed.state, printed.action),
+                            number_text(printed.new_value),
+                            number_text(story.beside->standard->new_value));
+}
+
+// What the first seed learned: a grid where there is one, else the table.
+std::string learned_text(const Run& run, const RunResult& result, const TerminalStyle& style,
+                         const LearnStory& story) {
+  const Mdp& mdp = *run.world().mdp;
+  const std::vector<Action>& policy = result.seeds.front().policy;
+  const Estimates estimates = run.trainings().front().learner().estimates();
+  if (mdp.layout() && mdp.states() > 20) {
+    std::vector<double> value(mdp.states(), 0.0);
+    for (State s = 0; s < mdp.states(); ++s) {
+      if (policy[s] != no_action) value[s] = estimates.q[mdp.choice_begin(s) + policy[s]];
+    }
+    const auto grid = grid_policy_text({&mdp, value, policy, {}, "learned policy"}, style);
+    return grid ? *grid + "\n" : "";
+  }
+  const std::vector<double> q_star =
+      result.exact ? q_star_all(mdp, *result.exact, run.discount()) : std::vector<double>();
+  QTableView view;
+  view.mdp = &mdp;
+  view.q = estimates.q;
+  view.q_is_float = estimates.single_precision;
+  view.q_star = q_star;
+  view.visits = estimates.visits;
+  view.policy = policy;
+  if (!run.entry().sound) view.q_title = "QE";
+  if (story.beside && !story.beside->q.empty()) {
+    view.more.push_back({"standard", story.beside->q});
+    if (const auto& first = story.beside->printed) {
+      view.marked = mdp.choice_begin(first->state) + first->action;
+      view.mark = fmt::format("<- first difference, step {}", grouped(first->step));
+    }
+  }
+  if (!estimates.reward_estimate.empty()) view.more.push_back({"rE", estimates.reward_estimate});
+  view.states = story.all ? 0 : 20;
+  return q_table(view) + "\n";
+}
+
 }  // namespace
 
+bool missed_stable(const SeedResult& seed, const LearnStory& story) {
+  return seed.stop == Stop::budget ||
+         (story.until_stable &&
+          (seed.stop == Stop::steps || seed.stop == Stop::episodes || seed.stop == Stop::time));
+}
+
+std::vector<PairVisits> least_visited(const Run& run, const RunResult& result,
+                                      const LearnStory& story) {
+  std::size_t seed = 0;
+  while (seed < result.seeds.size() && !missed_stable(result.seeds[seed], story)) ++seed;
+  const Result<TabularSetup> setup = resolve(run.settings().learn, run.world());
+  if (seed == result.seeds.size() || !run.world().mdp || !setup) return {};
+  const Mdp& mdp = *run.world().mdp;
+  const Estimates estimates = run.trainings()[seed].learner().estimates();
+  const std::vector<bool> reached = reachable(mdp, setup->starts.states());
+  std::vector<PairVisits> pairs;
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (!reached[s] || mdp.terminal(s)) continue;
+    for (Action a = 0; a < mdp.actions(s); ++a) {
+      pairs.push_back({estimates.visits[mdp.choice_begin(s) + a], s, a});
+    }
+  }
+  const std::size_t shown = std::min<std::size_t>(10, pairs.size());
+  std::partial_sort(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(shown), pairs.end(),
+                    [](const PairVisits& left, const PairVisits& right) {
+                      return std::tie(left.visits, left.state, left.action) <
+                             std::tie(right.visits, right.state, right.action);
+                    });
+  pairs.resize(shown);
+  return pairs;
+}
+
 std::string learn_text(const Run& run, const RunResult& result, const TerminalStyle& style,
-                       bool all) {
-  std::string text = heading(run);
+                       const LearnStory& story) {
   const SeedResult& first = result.seeds.front();
+  std::string text = heading(run);
   if (result.seeds.size() > 1) {
-    return text + "\n" + seeds_table(result) + next_steps(run);
+    text += "\n" + printed_text(run, story) + seeds_table(run, result);
+    text += least_visited_text(run, result, story);
+    if (!run.entry().sound) text += verdict(run, result, first);
+    return text + next_steps(run);
   }
-  text += stop_sentence(run, first) + "\n\n";
-  const Mdp* mdp = run.world().mdp.get();
-  if (mdp) {
-    const Estimates estimates = run.trainings().front().learner().estimates();
-    const std::vector<double> q_star =
-        result.exact ? q_star_all(*mdp, *result.exact, run.discount()) : std::vector<double>();
-    if (mdp->layout() && mdp->states() > 20) {
-      std::vector<double> value(mdp->states(), 0.0);
-      for (State s = 0; s < mdp->states(); ++s) {
-        if (first.policy[s] != no_action)
-          value[s] = estimates.q[mdp->choice_begin(s) + first.policy[s]];
-      }
-      const GridView view{mdp, value, first.policy, {}, "learned policy"};
-      if (const auto grid = grid_policy_text(view, style)) text += *grid + "\n";
-    } else {
-      QTableView view;
-      view.mdp = mdp;
-      view.q = estimates.q;
-      view.q_is_float = estimates.single_precision;
-      view.q_star = q_star;
-      view.visits = estimates.visits;
-      view.policy = first.policy;
-      if (!estimates.reward_estimate.empty()) {
-        view.more.push_back({"rE", estimates.reward_estimate});
-      }
-      view.states = all ? 0 : 20;
-      text += q_table(view) + "\n";
-    }
-    if (first.stop == Stop::budget) {
-      if (const auto setup = resolve(run.settings().learn, run.world())) {
-        text += least_visited(*mdp, estimates, *setup);
-      }
-    }
-  }
+  text += stop_sentence(run, first, story) + "\n\n";
+  const std::string printed = printed_text(run, story);
+  if (!printed.empty()) text += printed + "\n";
+  if (run.world().mdp) text += learned_text(run, result, style, story);
+  text += least_visited_text(run, result, story);
   text += impossible_text(run, first.impossible);
   text += verdict(run, result, first);
   text += curve_line(run, style);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <limits>
 #include <mutex>
 #include <utility>
 
@@ -39,10 +40,11 @@ Result<void> defined_without_discount(const World& world, double discount) {
 void count_optimal(const Mdp& mdp, const Solution& exact, const std::vector<State>& from,
                    SeedResult& seed) {
   const std::vector<bool> reached = reachable(mdp, from);
+  const TiedActions tied(mdp, exact);
   for (State s = 0; s < mdp.states(); ++s) {
     if (!reached[s] || mdp.terminal(s)) continue;
     ++seed.judged_states;
-    const std::vector<Action> best = optimal_actions(mdp, exact, s);
+    const std::vector<Action> best = tied.of(s);
     seed.optimal_states += std::find(best.begin(), best.end(), seed.policy[s]) != best.end();
   }
 }
@@ -54,8 +56,10 @@ std::uint64_t world_digest(const World& world) {
 }  // namespace
 
 std::uint64_t default_budget(const World& world) {
-  const std::uint64_t pairs = world.mdp ? world.mdp->choices() : 0;
-  return std::max<std::uint64_t>(1'000'000, 2000 * pairs);
+  std::uint64_t pairs = world.mdp ? world.mdp->choices() : 0;
+  if (!world.mdp && world.make) pairs = world.traits.states * world.make(1, 1)->spaces().actions;
+  constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max() / 2000;
+  return std::max<std::uint64_t>(1'000'000, 2000 * std::min(pairs, most));
 }
 
 Result<Run> Run::start(RunSettings settings, WorldSource source, const World& world,
@@ -73,6 +77,14 @@ Result<Run> Run::start(RunSettings settings, WorldSource source, const World& wo
     if (!defined) return defined.error();
   }
   if (run.settings_.seeds == 0) run.settings_.seeds = 1;
+  const std::uint64_t last = std::numeric_limits<std::uint64_t>::max();
+  if (run.settings_.seeds - 1 > last - run.settings_.learn.seed) {
+    return Error{"--seeds", 0, 0,
+                 std::to_string(run.settings_.seeds) + " seeds from " +
+                     std::to_string(run.settings_.learn.seed) +
+                     " on do not exist: the last one is " + std::to_string(last),
+                 ""};
+  }
   for (std::uint64_t index = 0; index < run.settings_.seeds; ++index) {
     Result<Training> training =
         Training::make(run.settings_, index, *run.world_, run.initial_rewards_);
@@ -171,7 +183,7 @@ RunResult Run::result(bool solve_too) const {
     seed.stop = training.stop();
     seed.impossible = progress.impossible;
     seed.policy = greedy_policy(training.learner().estimates());
-    if (mdp && result.exact) {
+    if (mdp && result.exact && entry_->sound) {
       seed.optimality = judge(*mdp, *result.exact, seed.policy, from, discount());
       count_optimal(*mdp, *result.exact, from, seed);
     }
@@ -214,7 +226,7 @@ Result<void> Run::save(const std::string& path) {
   return save_archive(path, "run", archive.bytes());
 }
 
-Result<Run> Run::load(const std::string& path, bool watch) {
+Result<Run> Run::load(const std::string& path, bool watch, const World* offered) {
   const Result<std::vector<std::byte>> content = load_archive(path, "run");
   if (!content) return content.error();
   Archive archive{std::span<const std::byte>(*content)};
@@ -225,7 +237,8 @@ Result<Run> Run::load(const std::string& path, bool watch) {
   const auto refuse = [&](const std::string& why) { return Error{path, 0, 0, why, ""}; };
   if (!archive.good())
     return refuse("not a run this program can read: " + archive.error().expected);
-  Result<World> world = find_world(saved.source_.name, saved.source_.parameters);
+  const bool fits = offered != nullptr && offered->mdp && world_digest(*offered) == fingerprint;
+  Result<World> world = fits ? *offered : find_world(saved.source_.name, saved.source_.parameters);
   if (!world) {
     const std::size_t slash = path.find_last_of('/');
     const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);

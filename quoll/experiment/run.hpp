@@ -36,8 +36,9 @@ struct SeedResult {
   double seconds = 0.0;
   Stop stop = Stop::none;
   Impossible impossible;
-  std::vector<Action> policy;            ///< greedy among visited
-  std::optional<Optimality> optimality;  ///< where an exact answer is known
+  std::vector<Action> policy;  ///< greedy among visited
+  /// Where an exact answer is known; never of a rule that exists to be studied.
+  std::optional<Optimality> optimality;
   /// States whose chosen action is optimal, among the states the verdict is about.
   std::uint64_t optimal_states = 0, judged_states = 0;
   Played played;
@@ -57,8 +58,10 @@ class Run {
   static Result<Run> start(RunSettings settings, WorldSource source, const World& world,
                            std::vector<double> initial_rewards);
   /// Reads a run file; finds its world again (beside the file if not where it was), and refuses a
-  /// world that has changed since. `watch` = whether it goes on to watch for stability.
-  static Result<Run> load(const std::string& path, bool watch = true);
+  /// world that has changed since. `watch` = whether it goes on to watch for stability. `offered`
+  /// is taken instead if it has the same model.
+  static Result<Run> load(const std::string& path, bool watch = true,
+                          const World* offered = nullptr);
   /// Writes the run atomically. Between calls of advance() only.
   Result<void> save(const std::string& path);
 
@@ -93,7 +96,8 @@ class Run {
   std::vector<Training> trainings_;
 };
 
-/// Steps after which a run without a limit gives up on being stable: max(10^6, 2000 x pairs).
+/// Steps after which a run without a limit gives up on being stable: max(10^6, 2000 x pairs); the
+/// pairs of a world without a model are its states x its largest number of actions.
 std::uint64_t default_budget(const World& world);
 
 }  // namespace quoll

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "quoll/base/text.hpp"
 #include "quoll/model/graph.hpp"
@@ -213,9 +214,21 @@ Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
                                     world.traits.deterministic, setup.discount);
   if (!step) return step.error();
   setup.step_size = *step;
+  if (settings.tolerance < 0.0 && settings.tolerance != -1.0) {
+    return Error{
+        "--tolerance", 0, 0,
+        "-1 or a number of at least 0 expected, not '" + shortest(settings.tolerance) + "'", ""};
+  }
   const auto initial = initial_value(settings, world, setup.discount);
   if (!initial) return initial.error();
   setup.initial_value = settings.rule == "as-printed" ? 0.0 : *initial;  // all QE = 0, as printed
+  if (settings.precision == Precision::single &&
+      std::fabs(setup.initial_value) > std::numeric_limits<float>::max()) {
+    return Error{"--initial-value", 0, 0,
+                 shortest(setup.initial_value) +
+                     " is more than a table of floats can hold; use --precision double",
+                 ""};
+  }
   const std::uint64_t choices = world.mdp ? world.mdp->choices() : 0;
   if (!initial_rewards.empty() && initial_rewards.size() != choices) {
     return Error{"--initial-rewards", 0, 0,

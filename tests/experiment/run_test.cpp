@@ -132,6 +132,55 @@ TEST(Runs, RefusesWhatIsNotDefined) {
   EXPECT_FALSE(OneRun::start({}, {"adventure", {}}, adventure(), {1.0, 2.0}));
 }
 
+// 501 states with at most 2 actions: the model knows 1000 pairs (the end has none); without it they
+// are 501 x 2 = 1002, so 2000 x 1002 steps.
+TEST(Runs, TheBudgetCountsPairsWithAndWithoutAModel) {
+  EXPECT_EQ(default_budget(corridor(500)), 2'000'000u);
+  EXPECT_EQ(default_budget(without_model(corridor(500))), 2'004'000u);
+}
+
+TEST(Runs, RefusesSeedsThatDoNotExist) {
+  RunSettings settings;
+  settings.learn.seed = ~std::uint64_t{0} - 1;
+  settings.seeds = 3;
+  const auto refused = OneRun::start(settings, {"adventure", {}}, adventure(), {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().file, "--seeds");
+  settings.seeds = 2;
+  EXPECT_TRUE(OneRun::start(settings, {"adventure", {}}, adventure(), {}));
+}
+
+TEST(Runs, RefusesAValueThatTheTableCannotHold) {
+  RunSettings settings;
+  settings.learn.initial_value = "-1e39";
+  const auto refused = OneRun::start(settings, {"adventure", {}}, adventure(), {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().file, "--initial-value");
+  settings.learn.precision = Precision::twofold;
+  EXPECT_TRUE(OneRun::start(settings, {"adventure", {}}, adventure(), {}));
+}
+
+TEST(Runs, RefusesATolerance) {
+  RunSettings settings;
+  for (const double tolerance : {-0.5, -0.999}) {
+    settings.learn.tolerance = tolerance;
+    EXPECT_FALSE(OneRun::start(settings, {"adventure", {}}, adventure(), {}));
+  }
+  for (const double tolerance : {-1.0, 0.0, 0.5}) {
+    settings.learn.tolerance = tolerance;
+    EXPECT_TRUE(OneRun::start(settings, {"adventure", {}}, adventure(), {}));
+  }
+}
+
+TEST(Runs, JudgesNoRuleThatExistsToBeStudied) {
+  RunSettings settings = limited(1000);
+  settings.learn.rule = "as-printed";
+  settings.seeds = 2;
+  OneRun run = started(adventure(), settings);
+  run.advance(settings, 0.0, {}, {});
+  for (const SeedResult& seed : run.result(true).seeds) EXPECT_FALSE(seed.optimality);
+}
+
 TEST(Runs, LearnsInAWorldWithoutAModel) {
   RunSettings settings = limited(20'000);
   OneRun run = started(without_model(adventure()), settings);
