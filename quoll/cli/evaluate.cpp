@@ -29,7 +29,9 @@ struct EvaluationSettings {
 
   void describe(Describer& d) {
     d("discount", discount, 0, 1, "discount factor of the future; 0 = the world's own");
-    d("tolerance", tolerance, 0, 1e300, "largest upper - lower over all states");
+    d("tolerance", tolerance, 0, 1e300,
+      "largest upper - lower over all states; if not given, also 1e-11 of the largest value will "
+      "do");
     d("episodes", episodes, 0, 1e9, "also play so many episodes");
     d("seed", seed, "which random numbers the episodes take");
     d("episode_steps", episode_steps,
@@ -56,6 +58,7 @@ struct Evaluated {
   std::string policy;
   std::vector<Action> actions;  ///< empty for the uniform policy
   double discount = 1.0;
+  double tolerance = 0.0;  ///< the width the answer is held to
   Evaluation value;
   double seconds = 0.0;
   std::optional<Sampled> sampled;
@@ -171,6 +174,23 @@ std::string value_lines(const Evaluated& of, bool all) {
   return text;
 }
 
+/// Why the answer is not as close as asked.
+std::string missed(const Evaluated& of) {
+  if (std::isfinite(of.value.gap)) {
+    return fmt::format("not as close as asked: --tolerance is {}\n", number_text(of.tolerance));
+  }
+  State s = 0;
+  while (s < of.mdp.states() &&
+         !(of.value.lower[s] == -INFINITY && of.value.upper[s] == INFINITY)) {
+    ++s;
+  }
+  const std::string from = s < of.mdp.states() ? " from " + of.mdp.state_name(s) : "";
+  if (interrupted()) return "not decided: stopped before anything was certain\n";
+  return "not decided: the value" + from +
+         " could not be bounded: episodes may never end and gain and lose on the way; a "
+         "discount below 1 makes the values finite\n";
+}
+
 std::string evaluate_text(const Evaluated& of, bool all) {
   std::string text =
       fmt::format("evaluate {}   policy {}, {} states, discount {}\n\n", of.world.name, of.policy,
@@ -183,15 +203,15 @@ std::string evaluate_text(const Evaluated& of, bool all) {
   else
     text += fmt::format("in [{}, {}]", number_text(start.lower), number_text(start.upper));
   text += fmt::format(", every interval at most {} wide\n", number_text(of.width()));
-  if (!of.actions.empty()) {
-    std::uint64_t unknown = 0;
-    for (State s = 0; s < of.mdp.states(); ++s) {
-      unknown += !of.mdp.terminal(s) && of.actions[s] == no_action;
-    }
-    if (unknown > 0) {
-      text += fmt::format("{} states have no action in this policy: anything may happen there\n",
-                          grouped(unknown));
-    }
+  std::uint64_t unknown = 0;
+  for (State s = 0; s < of.actions.size(); ++s) {
+    unknown += !of.mdp.terminal(s) && of.actions[s] == no_action;
+  }
+  if (unknown > 0) {
+    text += fmt::format("{} states have no action in this policy: anything may happen there\n",
+                        grouped(unknown));
+  } else if (!of.value.converged) {
+    text += missed(of);
   }
   if (!of.sampled) return text;
   const Played& played = of.sampled->played;
@@ -209,7 +229,7 @@ std::string evaluate_text(const Evaluated& of, bool all) {
 Result<Evaluated> evaluated(const EvaluateOptions& options, const EvaluationSettings& asked,
                             const World& world) {
   const Mdp& mdp = *world.mdp;
-  Evaluated of{world, mdp, options.policy, {}, world.discount, {}, 0.0, {}};
+  Evaluated of{world, mdp, options.policy, {}, world.discount, 0.0, {}, 0.0, {}};
   if (asked.discount > 0.0) of.discount = asked.discount;
   if (options.policy != "uniform") {
     Result<std::vector<Action>> actions = read_policy(options.policy, world);
@@ -220,13 +240,30 @@ Result<Evaluated> evaluated(const EvaluateOptions& options, const EvaluationSett
                  "the uniform policy is evaluated exactly; episodes need a policy from a file", ""};
   }
   const auto begun = std::chrono::steady_clock::now();
+  ProgressDisplay display(options.output.quiet, "sweeps");
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  };
+  const KeepGoing keep_going = [&](const SolveProgress& now) {
+    if (now.sweeps > 0) {
+      display.show(now.sweeps, 0, seconds(), "gap " + number_text(now.gap));
+    } else {
+      display.show(now.backups, mdp.states(), seconds(), "states eliminated");
+    }
+    return !interrupted();
+  };
   Result<Evaluation> value =
       options.policy == "uniform"
-          ? quoll::evaluate(mdp, uniform_policy(mdp), of.discount, asked.tolerance)
-          : quoll::evaluate(mdp, std::span<const Action>(of.actions), of.discount, asked.tolerance);
+          ? quoll::evaluate(mdp, uniform_policy(mdp), of.discount, asked.tolerance, keep_going)
+          : quoll::evaluate(mdp, std::span<const Action>(of.actions), of.discount, asked.tolerance,
+                            keep_going);
   if (!value) return value.error();
   of.value = std::move(*value);
-  of.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  const bool given =
+      asked_for(options.given, "tolerance") || asked.tolerance != EvaluationSettings().tolerance;
+  of.tolerance = wanted_width(asked.tolerance, given, 1e-11, of.value.lower, of.value.upper);
+  of.value.converged = of.value.gap <= of.tolerance;
+  of.seconds = seconds();
   if (asked.episodes > 0) of.sampled = sample(of, asked);
   return of;
 }
@@ -244,10 +281,12 @@ Exit evaluate(const EvaluateOptions& options) {
   if (!world->mdp) {
     return fail({"", 0, 0, "the model of " + world->name + " is not known", ""});
   }
+  catch_interrupts();
   const Result<Evaluated> of = evaluated(options, asked, *world);
   if (!of) return fail(of.error());
   if (!options.output.file.empty()) {
-    const Result<void> written = write_file(options.output.file, evaluate_json(*of, true));
+    const Result<void> written = write_output(options.output.file, evaluate_json(*of, true),
+                                              {options.world.name, options.policy});
     if (!written) return fail(written.error());
   }
   const bool all = options.output.all;

@@ -1,5 +1,7 @@
 #include "quoll/cli/exact.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "quoll/solve/optimality.hpp"
@@ -20,8 +22,27 @@ Interval start_value(const Mdp& mdp, std::span<const double> lower, std::span<co
   return sum;
 }
 
+double wanted_width(double width, bool given, double relative, std::span<const double> lower,
+                    std::span<const double> upper) {
+  if (given) return width;
+  double size = 0.0;
+  for (const std::span<const double> bounds : {lower, upper}) {
+    for (const double x : bounds) {
+      if (std::isfinite(x)) size = std::max(size, std::fabs(x));
+    }
+  }
+  return std::max(width, relative * size);
+}
+
+bool asked_for(const GivenSettings& given, std::string_view key) {
+  const auto all = given.given();
+  if (!all) return false;
+  return std::any_of(all->begin(), all->end(), [&](const auto& one) { return one.first == key; });
+}
+
 OptimalActions::OptimalActions(const Mdp& mdp, const Solution& solution, bool maximise)
-    : mdp_(mdp), solution_(solution) {
+    : mdp_(mdp) {
+  tied_.emplace(mdp, solution);
   if (maximise) return;
   MdpArrays arrays = mdp.arrays();
   for (double& reward : arrays.reward) reward = -reward;
@@ -33,11 +54,11 @@ OptimalActions::OptimalActions(const Mdp& mdp, const Solution& solution, bool ma
   std::swap(mirrored_[0].lower, mirrored_[0].upper);
   for (double& value : mirrored_[0].lower) value = -value;
   for (double& value : mirrored_[0].upper) value = -value;
+  tied_.emplace(turned_[0], mirrored_[0]);
 }
 
 std::vector<Action> OptimalActions::of(State state) const {
-  return turned_.empty() ? optimal_actions(mdp_, solution_, state)
-                         : optimal_actions(turned_[0], mirrored_[0], state);
+  return tied_->of(state);
 }
 
 std::vector<std::uint8_t> OptimalActions::flags(std::uint64_t states) const {

@@ -66,10 +66,11 @@ Result<Exhibit> exact_exhibit(const World& world, double discount) {
   exhibit.title = fmt::format("{}: exact values, discount {}", world.name, shortest(discount));
   exhibit.value.resize(mdp.states());
   exhibit.best.assign(mdp.choices(), 0);
+  const TiedActions tied(mdp, *exact);
   for (State s = 0; s < mdp.states(); ++s) {
     const double lower = exact->lower[s], upper = exact->upper[s];
     exhibit.value[s] = lower == upper ? lower : 0.5 * (lower + upper);
-    for (const Action a : optimal_actions(mdp, *exact, s)) {
+    for (const Action a : tied.of(s)) {
       exhibit.best[mdp.choice_begin(s) + a] = 1;
     }
   }

@@ -33,7 +33,9 @@ struct ExactSettings {
 
   void describe(Describer& d) {
     d("discount", discount, 0, 1, "discount factor of the future; 0 = the world's own");
-    d("tolerance", tolerance, 0, 1e300, "largest upper - lower over all states");
+    d("tolerance", tolerance, 0, 1e300,
+      "largest upper - lower over all states; if not given, also 1e-12 of the largest value will "
+      "do");
     d("method", method, "auto, or a name from 'quoll list solvers'");
     d("minimise", minimise, "rewards are costs: find the least");
   }
@@ -107,7 +109,12 @@ std::string heading(const Solved& solved) {
 /// Q* of every choice beside each other, for worlds that fit on a page; nothing if one of them is
 /// not known at all.
 std::string q_text(const Solved& solved) {
-  const std::vector<double> q = q_star_all(solved.mdp, solved.solution, solved.solution.discount);
+  std::vector<double> q = q_star_all(solved.mdp, solved.solution, solved.solution.discount);
+  // The middle of an interval around 0 is noise; 0 is as true and says more.
+  const double gap = largest_gap(solved.mdp, solved.solution);
+  for (double& x : q) {
+    if (std::fabs(x) <= 0.5 * gap) x = 0.0;
+  }
   const bool known = std::none_of(q.begin(), q.end(), [](double x) { return std::isnan(x); });
   if (!known) return "";
   QTableView view;
@@ -168,7 +175,11 @@ std::string verdict(const Solved& solved) {
     text = "start value " + interval_text(start);
     text += solution.converged ? ", certified: no state of this policy loses more than "
                                : ", not as close as asked: the policy may lose up to ";
-    text += number_text(largest_gap(solved.mdp, solution)) + "\n";
+    text += number_text(largest_gap(solved.mdp, solution));
+    if (!solution.converged) {
+      text += fmt::format(" (--tolerance {})", number_text(solved.asked.tolerance));
+    }
+    text += "\n";
   }
   text += fmt::format("{} sweep{} in {} (loaded in {})\n", grouped(solution.sweeps),
                       solution.sweeps == 1 ? "" : "s", time_text(solved.seconds),
@@ -189,7 +200,14 @@ Result<Solution> run_solver(const SolveOptions& options, const ExactSettings& as
     display.show(now.sweeps, 0, watch.seconds(), "gap " + number_text(now.gap));
     return !interrupted();
   };
-  return quoll::solve(mdp, settings, asked.method);
+  Result<Solution> solution = quoll::solve(mdp, settings, asked.method);
+  if (!solution) return solution;
+  const bool given =
+      asked_for(options.given, "tolerance") || asked.tolerance != ExactSettings().tolerance;
+  const double width =
+      wanted_width(asked.tolerance, given, 1e-12, solution->lower, solution->upper);
+  solution->converged = largest_gap(mdp, *solution) <= width;
+  return solution;
 }
 
 Exit solve(const SolveOptions& options) {
@@ -211,7 +229,8 @@ Exit solve(const SolveOptions& options) {
   if (!solution) return fail(solution.error());
   const Solved solved{*world, *world->mdp, asked, std::move(*solution), seconds, seconds_load};
   if (!options.output.file.empty()) {
-    const Result<void> written = write_file(options.output.file, solve_json(solved, true));
+    const Result<void> written =
+        write_output(options.output.file, solve_json(solved, true), {options.world.name});
     if (!written) return fail(written.error());
   }
   std::string text;
