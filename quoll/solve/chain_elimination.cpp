@@ -9,7 +9,7 @@
 #include "quoll/solve/rounding.hpp"
 
 // State elimination without subtraction: Grassmann, Taksar and Heyman 1985; order of least degree:
-// Markowitz 1957; bounds from an inductive error: Rump 2010 (Verification methods, section 10.5).
+// Markowitz 1957; bounds from an inductive error: Rump 2010 (Verification methods).
 //
 //   1  for s in order of least |in(s)| |out(s)|:  d_s <- e_s + sum of p_sj, j != s;  for all
 //      i in in(s), j in out(s): p_ij += p_is p_sj / d_s;  e_i += p_is e_s / d_s
