@@ -36,6 +36,7 @@ inline constexpr std::uint8_t set_bits[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3
 
 template <class Value>
 struct FourRows {
+  bool full = false;  ///< every row that is looked at has four actions: no padding to count
   static constexpr Value padding = -std::numeric_limits<Value>::infinity();
 
   std::uint64_t pair(State state, Action action) const { return std::uint64_t{state} * 4 + action; }
@@ -48,6 +49,7 @@ struct FourRows {
       const __m128 swapped = _mm_max_ps(row, _mm_shuffle_ps(row, row, _MM_SHUFFLE(1, 0, 3, 2)));
       const __m128 best = _mm_max_ps(swapped, _mm_shuffle_ps(swapped, swapped, 0xb1));
       const auto ties = static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmpeq_ps(row, best)));
+      if (full) return {_mm_cvtss_f32(best), ties, 4};
       const auto closed =
           static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmpeq_ps(row, _mm_set1_ps(padding))));
       return {_mm_cvtss_f32(best), ties, 4u - detail::set_bits[closed]};

@@ -15,7 +15,8 @@ namespace quoll {
 /// A step size that never changes and is not small, for the loop that needs no other.
 struct ConstantStep {
   double value;
-  bool one() const { return value == 1.0; }
+  bool whole = value == 1.0;
+  bool one() const { return whole; }
   bool small() const { return false; }
   double at(std::uint32_t) const { return value; }
 };

@@ -154,7 +154,8 @@ void route_loop(Arrow& arrow, const std::vector<Arrow>& arrows, const std::vecto
   }
   std::sort(order.begin(), order.end());
   const GraphPoint out = sides[order[index % 4].second];
-  const double ring = static_cast<double>(index / 4);
+  const std::size_t full_rounds = index / 4;
+  const auto ring = static_cast<double>(full_rounds);
   const double reach = 62 + 44 * ring, half = 13 + 5 * ring;
   const Box& box = nodes[arrow.from];
   const GraphPoint centre = middle(box);

@@ -42,10 +42,10 @@ class TabularLearner final : public Learner {
     if constexpr (std::is_same_v<Rows<Value>, RaggedRows<Value>>) rows_.begin = begin_.data();
     lay_out(static_cast<Value>(setup.initial_value), states, layout);
     if (stability_.watching() && stability_.counts_met()) met_.resize(states);
-    cursor_.behaviour = stream(setup.seed, "behaviour");
-    cursor_.world = stream(setup.seed, "world");
-    cursor_.start = stream(setup.seed, "start");
-    cursor_.state = begin_episode();
+    walk_.behaviour = stream(setup.seed, "behaviour");
+    walk_.dice = stream(setup.seed, "world");
+    episodes_.start = stream(setup.seed, "start");
+    walk_.state = begin_episode();
   }
 
   LearnProgress advance(std::uint64_t steps, std::span<Update> log) override {
@@ -66,9 +66,9 @@ class TabularLearner final : public Learner {
 
   LearnProgress progress() const override {
     LearnProgress now = progress_;
-    now.steps = cursor_.step;
-    now.episodes = cursor_.episodes;
-    now.return_sum = cursor_.return_sum;
+    now.steps = walk_.step;
+    now.episodes = episodes_.finished;
+    now.return_sum = episodes_.return_sum;
     return now;
   }
 
@@ -91,7 +91,8 @@ class TabularLearner final : public Learner {
   }
 
   void persist(Archive& archive) override {
-    archive("cursor", cursor_);
+    archive("walk", walk_);
+    archive("episodes", episodes_);
     archive("halt", progress_.halt);
     Impossible& first = progress_.impossible;
     archive("impossible", first.found);
@@ -110,11 +111,11 @@ class TabularLearner final : public Learner {
     archive("visits", visits_);
     archive("met", met_);
     if (!archive.saving()) {
-      if (values_.size() != pairs || visits_.size() != pairs || !possible(cursor_.state) ||
-          first.state >= begin_.size() - 1 || cursor_.episode_step >= episode_steps_ ||
+      if (values_.size() != pairs || visits_.size() != pairs || !possible(walk_.state) ||
+          first.state >= begin_.size() - 1 || walk_.episode_step >= episode_steps_ ||
           !same_padding(fresh)) {
         archive.fail("the saved table does not fit this world");
-        cursor_.state = 0;
+        walk_.state = 0;
         first.state = 0;
       }
       values_.resize(pairs);
@@ -133,24 +134,35 @@ class TabularLearner final : public Learner {
   }
 
  private:
+  static constexpr bool padded_rows = std::is_same_v<Rows<Value>, FourRows<Value>>;
   enum class Watch : std::uint8_t { nothing, stability, log };
 
-  // What steps change besides the table.
-  struct Cursor {
-    Rng behaviour, world, start;
+  // What every step changes besides the table: small, so that run() holds it in registers.
+  struct Walk {
+    Rng behaviour, dice;
     State state = 0;
-    std::uint64_t step = 0, episodes = 0, episode_step = 0;
-    double episode_return = 0.0, return_sum = 0.0;
+    std::uint64_t step = 0, episode_step = 0;
+    double episode_return = 0.0;
 
     void persist(Archive& archive) {
       archive("behaviour", behaviour);
-      archive("world", world);
-      archive("start", start);
+      archive("dice", dice);
       archive("state", state);
       archive("step", step);
-      archive("episodes", episodes);
       archive("episode_step", episode_step);
       archive("episode_return", episode_return);
+    }
+  };
+
+  // What the ends of episodes change.
+  struct Episodes {
+    Rng start;
+    std::uint64_t finished = 0;
+    double return_sum = 0.0;
+
+    void persist(Archive& archive) {
+      archive("start", start);
+      archive("finished", finished);
       archive("return_sum", return_sum);
     }
   };
@@ -158,9 +170,11 @@ class TabularLearner final : public Learner {
   // Rows of ends hold 0 and padding holds -infinity: the target's maximum needs no mask.
   void lay_out(Value initial, std::uint64_t states, PairLayout layout) {
     values_.assign(layout.pairs, initial);
+    bool full = true;
     for (State s = 0; s < states; ++s) {
       const std::uint64_t legal = begin_[s + 1] - begin_[s];
       const bool end = legal == 0 || (mdp_ && mdp_->terminal(s));
+      full = full && (end || legal == layout.width);
       const std::uint64_t width = layout.width == 0 ? legal : layout.width;
       for (std::uint64_t a = 0; a < width; ++a) {
         Value& value = values_[rows_.pair(s, static_cast<Action>(a))];
@@ -170,6 +184,7 @@ class TabularLearner final : public Learner {
           value = -std::numeric_limits<Value>::infinity();
       }
     }
+    if constexpr (padded_rows) rows_.full = full;
   }
 
   // A state that an episode can stand in.
@@ -188,7 +203,7 @@ class TabularLearner final : public Learner {
 
   /// Draws the state of the next episode.
   State begin_episode() {
-    return source_.start(starts_, cursor_.start, [this](State s) {
+    return source_.start(starts_, episodes_.start, [this](State s) {
       std::uint64_t sum = 0;
       const auto actions = static_cast<Action>(begin_[s + 1] - begin_[s]);
       for (Action a = 0; a < actions; ++a) sum += visits_[rows_.pair(s, a)];
@@ -197,12 +212,10 @@ class TabularLearner final : public Learner {
   }
 
   [[gnu::noinline]] State end_episode(double episode_return) {
-    ++cursor_.episodes;
-    cursor_.return_sum += episode_return;
+    ++episodes_.finished;
+    episodes_.return_sum += episode_return;
     return begin_episode();
   }
-
-  static constexpr bool padded_rows = std::is_same_v<Rows<Value>, FourRows<Value>>;
 
   // The fast lane: nothing to watch, a coin for the choice, one step size.
   void run_plain(std::uint64_t count) {
@@ -221,26 +234,23 @@ class TabularLearner final : public Learner {
   template <Watch watch, class Choice, class Step>
   [[gnu::noinline]] void run(std::uint64_t count, std::span<Update> log, const Choice exploration,
                              const Step step_size) {
-    // What changes with every step is local, so that the compiler keeps it in registers.
-    Rng behaviour = cursor_.behaviour, dice = cursor_.world;
-    State state = cursor_.state;
-    std::uint64_t step = cursor_.step, episode_step = cursor_.episode_step;
-    double episode_return = cursor_.episode_return;
+    Walk walk = walk_;
     Value* const q = values_.data();
     std::uint32_t* const visits = visits_.data();
     const Rows<Value> rows = rows_;
     const double discount = discount_;
     const std::uint64_t episode_steps = episode_steps_;
     auto step_world = source_.stepper();
-    const std::uint64_t end = step + std::min(count, ~std::uint64_t{0} - step);
-    RowView<Value> here = rows.view(q, state);
-    while (step < end) {
+    const std::uint64_t end = walk.step + std::min(count, ~std::uint64_t{0} - walk.step);
+    RowView<Value> here = rows.view(q, walk.state);
+    while (walk.step < end) {
       // 1. Choose an action a in s, see the reward r and the next state s'.
-      const ChoiceDraws draws = ChoiceDraws::of(behaviour);
-      const Chosen chosen = exploration.choose(rows, q, visits, state, here, draws, step);
+      const State state = walk.state;
+      const ChoiceDraws draws = ChoiceDraws::of(walk.behaviour);
+      const Chosen chosen = exploration.choose(rows, q, visits, state, here, draws, walk.step);
       const std::uint64_t pair = rows.pair(state, chosen.action);
-      const auto landing = step_world(pair, state, chosen.action, dice.next());
-      ++step;
+      const auto landing = step_world(pair, state, chosen.action, walk.dice.next());
+      ++walk.step;
       // 2. Count the visit, form the target from max_a' Q(s', a'), store the new value.
       const std::uint32_t n = visits[pair] + (visits[pair] != ~std::uint32_t{0});
       visits[pair] = n;
@@ -252,49 +262,51 @@ class TabularLearner final : public Learner {
       q[pair] = revision.value;
       rule_.learned(pair, double{revision.value});
       if (!guard_.fine(double{revision.value})) [[unlikely]] {
-        look_closer(step, state, chosen.action, double{revision.value});
+        look_closer(walk.step, state, chosen.action, double{revision.value});
       }
       // 3. Go on from s', or begin the next episode.
-      episode_return += double{landing.reward};
-      const bool truncated = ++episode_step == episode_steps || cut(landing);
+      walk.episode_return += double{landing.reward};
+      const bool truncated = ++walk.episode_step == episode_steps || cut(landing);
       if constexpr (watch != Watch::nothing) {
         watch_stability(pair, state, landing.terminated ? state : landing.next, here, old,
                         revision);
       }
       if constexpr (watch == Watch::log) {
-        log[progress_.logged++] = {step,
-                                   0,
-                                   state,
-                                   chosen.action,
-                                   revision.reward,
-                                   landing.next,
-                                   landing.terminated,
-                                   truncated,
-                                   chosen.explored,
-                                   double{old},
-                                   best_next,
-                                   revision.target,
-                                   revision.step_size,
-                                   double{revision.value}};
+        log[progress_.logged++] =
+            told(walk.step, state, chosen, landing, truncated, old, best_next, revision);
       }
       if (landing.terminated || truncated) {
-        state = end_episode(episode_return);
-        episode_step = 0;
-        episode_return = 0.0;
-        here = rows.view(q, state);
+        walk.state = end_episode(walk.episode_return);
+        walk.episode_step = 0;
+        walk.episode_return = 0.0;
+        here = rows.view(q, walk.state);
       } else {
         here = landing.next == state ? rows.view(q, state) : there;
-        state = landing.next;
+        walk.state = landing.next;
       }
       if (progress_.halt != LearnProgress::Halt::none) [[unlikely]]
         break;
     }
-    cursor_.behaviour = behaviour;
-    cursor_.world = dice;
-    cursor_.state = state;
-    cursor_.step = step;
-    cursor_.episode_step = episode_step;
-    cursor_.episode_return = episode_return;
+    walk_ = walk;
+  }
+
+  template <class Landing>
+  static Update told(std::uint64_t step, State state, Chosen chosen, const Landing& landing,
+                     bool truncated, Value old, double best_next, const Revision<Value>& revision) {
+    return {step,
+            0,
+            state,
+            chosen.action,
+            revision.reward,
+            landing.next,
+            landing.terminated,
+            truncated,
+            chosen.explored,
+            double{old},
+            best_next,
+            revision.target,
+            revision.step_size,
+            double{revision.value}};
   }
 
   template <class Landing>
@@ -351,49 +363,9 @@ class TabularLearner final : public Learner {
   std::vector<Value> values_;
   std::vector<std::uint32_t> visits_;
   std::vector<std::uint8_t> met_;
-  Cursor cursor_;
+  Walk walk_;
+  Episodes episodes_;
   LearnProgress progress_;
 };
-
-/// The learner of a rule for the source and the layout that the world has.
-template <class Rule>
-std::unique_ptr<Learner> tabular(const TabularSetup& setup) {
-  using Value = typename Rule::Value;
-  using Chance = TableSource<StochasticTable<Value>>;
-  using Fixed = TableSource<DeterministicTable<Value>>;
-  const World& world = *setup.world;
-  if (!world.mdp) {
-    std::unique_ptr<Environment> environment = world.make(1, setup.seed);
-    const Spaces spaces = environment->spaces();
-    std::vector<std::uint64_t> begin(std::size_t{spaces.states} + 1);
-    for (State s = 0; s < spaces.states; ++s) {
-      // An end has one pair too: a world may begin in one, and the step there does nothing.
-      begin[s + 1] = begin[s] + std::max<std::uint64_t>(environment->actions(s), 1);
-    }
-    const PairLayout layout{0, begin.back()};
-    Rule rule(setup, layout, begin);
-    return std::make_unique<TabularLearner<Rule, EnvironmentSource, RaggedRows>>(
-        setup, std::move(rule), EnvironmentSource(std::move(environment)), spaces.states, layout,
-        std::move(begin));
-  }
-  // Padded rows for the rule whose speed counts; the others share the ragged ones.
-  constexpr bool padded = sizeof(Value) == 4 && !Rule::own_step;
-  const Mdp& mdp = *world.mdp;
-  const PairLayout layout = padded ? pair_layout(mdp) : PairLayout{0, mdp.choices()};
-  std::vector<std::uint64_t> begin = mdp.arrays().choice_begin;
-  Rule rule(setup, layout, begin);
-  const auto make = [&]<class Source>(Source source) -> std::unique_ptr<Learner> {
-    if constexpr (padded) {
-      if (layout.width == 4) {
-        return std::make_unique<TabularLearner<Rule, Source, FourRows>>(
-            setup, std::move(rule), std::move(source), mdp.states(), layout, std::move(begin));
-      }
-    }
-    return std::make_unique<TabularLearner<Rule, Source, RaggedRows>>(
-        setup, std::move(rule), std::move(source), mdp.states(), layout, std::move(begin));
-  };
-  if (mdp.deterministic()) return make(Fixed{deterministic_table<Value>(mdp, layout)});
-  return make(Chance{stochastic_table<Value>(mdp, layout)});
-}
 
 }  // namespace quoll

@@ -9,9 +9,9 @@
 //
 // s, a -> pair; r -> reward; gamma -> discount; max Q(s',.) -> best_next; alpha -> StepSize.
 
-#include "quoll/learn/tabular/engine.hpp"
 #include "quoll/learn/tabular/replay.hpp"
 #include "quoll/learn/tabular/rules.hpp"
+#include "quoll/learn/tabular/tabular.hpp"
 
 namespace quoll {
 namespace {

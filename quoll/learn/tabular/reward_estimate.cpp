@@ -8,10 +8,10 @@
 // QE -> the table; rE -> reward_; gamma -> discount; max QE(s',.) -> best_next. Right for random
 // rewards in worlds whose moves are deterministic.
 
-#include "quoll/learn/tabular/engine.hpp"
 #include "quoll/learn/tabular/initial_rewards.hpp"
 #include "quoll/learn/tabular/replay.hpp"
 #include "quoll/learn/tabular/rules.hpp"
+#include "quoll/learn/tabular/tabular.hpp"
 
 namespace quoll {
 namespace {
