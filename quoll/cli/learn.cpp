@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
@@ -244,6 +245,7 @@ void declare_learn(Options& options) {
   given->world.declare(options);
   for (Setting& setting : how.settings()) {
     if (setting.name != "discount") continue;
+    setting.low = std::numeric_limits<double>::denorm_min();
     setting.sentence = "discount factor of the future, above 0; without it the world's own";
   }
   given->how.declare(options, how.settings());
