@@ -184,6 +184,45 @@ StableSetup stable(const LearnSettings& settings, const TabularSetup& setup, con
   return stable;
 }
 
+Result<StepSize> step_size(const LearnSettings& settings, const World& world, double discount) {
+  const bool standard = settings.rule == "standard";
+  if (!standard && settings.step_size != "auto" && settings.step_size != "1") {
+    return Error{"--step-size", 0, 0,
+                 "the rule " + settings.rule + " takes whole steps: 1 or auto expected, not '" +
+                     settings.step_size + "'",
+                 ""};
+  }
+  return parse_step_size(standard ? settings.step_size : "1", world.traits.deterministic, discount);
+}
+
+// What a table of this precision begins with; "all QE = 0" is part of the printed rule.
+Result<double> first_value(const LearnSettings& settings, const World& world, double discount) {
+  const auto initial = initial_value(settings, world, discount);
+  if (!initial) return initial;
+  if (settings.rule == "as-printed") return 0.0;
+  if (settings.precision == Precision::single &&
+      std::fabs(*initial) > std::numeric_limits<float>::max()) {
+    return Error{
+        "--initial-value", 0, 0,
+        shortest(*initial) + " is more than a table of floats can hold; use --precision double",
+        ""};
+  }
+  return initial;
+}
+
+// The bound B of the divergence guard, or 0 where none is known.
+double value_bound(const TabularSetup& setup, const World& world) {
+  if (!world.traits.reward_bounds || setup.discount >= 1.0) return 0.0;
+  double largest = std::max(std::fabs(world.traits.reward_bounds->first),
+                            std::fabs(world.traits.reward_bounds->second));
+  if (setup.rule != "standard") {
+    for (const double reward : setup.initial_rewards) {
+      largest = std::max(largest, std::fabs(reward));
+    }
+  }
+  return std::max(std::fabs(setup.initial_value), largest / (1.0 - setup.discount));
+}
+
 }  // namespace
 
 Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
@@ -204,14 +243,7 @@ Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
   const auto starting = starts(settings, world);
   if (!starting) return starting.error();
   setup.starts = *starting;
-  if (settings.rule != "standard" && settings.step_size != "auto" && settings.step_size != "1") {
-    return Error{"--step-size", 0, 0,
-                 "the rule " + settings.rule + " takes whole steps: 1 or auto expected, not '" +
-                     settings.step_size + "'",
-                 ""};
-  }
-  const auto step = parse_step_size(settings.rule == "standard" ? settings.step_size : "1",
-                                    world.traits.deterministic, setup.discount);
+  const auto step = step_size(settings, world, setup.discount);
   if (!step) return step.error();
   setup.step_size = *step;
   if (settings.tolerance < 0.0 && settings.tolerance != -1.0) {
@@ -219,16 +251,9 @@ Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
         "--tolerance", 0, 0,
         "-1 or a number of at least 0 expected, not '" + shortest(settings.tolerance) + "'", ""};
   }
-  const auto initial = initial_value(settings, world, setup.discount);
+  const auto initial = first_value(settings, world, setup.discount);
   if (!initial) return initial.error();
-  setup.initial_value = settings.rule == "as-printed" ? 0.0 : *initial;  // all QE = 0, as printed
-  if (settings.precision == Precision::single &&
-      std::fabs(setup.initial_value) > std::numeric_limits<float>::max()) {
-    return Error{"--initial-value", 0, 0,
-                 shortest(setup.initial_value) +
-                     " is more than a table of floats can hold; use --precision double",
-                 ""};
-  }
+  setup.initial_value = *initial;
   const std::uint64_t choices = world.mdp ? world.mdp->choices() : 0;
   if (!initial_rewards.empty() && initial_rewards.size() != choices) {
     return Error{"--initial-rewards", 0, 0,
@@ -242,16 +267,7 @@ Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
   }
   setup.episode_steps = episode_limit(settings, world, setup.discount);
   setup.stable = stable(settings, setup, world);
-  if (world.traits.reward_bounds && setup.discount < 1.0) {
-    double largest = std::max(std::fabs(world.traits.reward_bounds->first),
-                              std::fabs(world.traits.reward_bounds->second));
-    if (settings.rule != "standard") {
-      for (const double reward : setup.initial_rewards) {
-        largest = std::max(largest, std::fabs(reward));
-      }
-    }
-    setup.value_bound = std::max(std::fabs(setup.initial_value), largest / (1.0 - setup.discount));
-  }
+  setup.value_bound = value_bound(setup, world);
   return setup;
 }
 
