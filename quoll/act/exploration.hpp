@@ -43,8 +43,9 @@ struct Chosen {
 };
 
 /// The choices that a coin decides, for the loop that has nothing else to ask: uniform is epsilon
-/// 1, greedy epsilon 0. Same draws, same choices as Exploration.
-template <bool first_tie>
+/// 1, greedy epsilon 0. Same draws, same choices as Exploration. `mixed`: the coin falls both ways,
+/// so that a branch on it could not be predicted; then both choices are made and one is masked out.
+template <bool first_tie, bool mixed>
 struct CoinExploration {
   std::uint64_t threshold;  ///< explore when the 32-bit coin is below
 
@@ -54,6 +55,10 @@ struct CoinExploration {
     const bool explore = draws.coin() < threshold;
     const Action greedy =
         first_tie ? rows.first(values, state, row) : rows.pick(values, state, row, draws.tie());
+    if constexpr (mixed) {
+      const Action random = scale(draws.action(), row.legal);
+      return {greedy ^ ((greedy ^ random) & (Action{0} - Action{explore})), explore};
+    }
     return {explore ? scale(draws.action(), row.legal) : greedy, explore};
   }
 };

@@ -221,13 +221,19 @@ class TabularLearner final : public Learner {
   void run_plain(std::uint64_t count) {
     if constexpr (padded_rows) {
       const std::uint64_t threshold = exploration_.coin_threshold();
-      const ConstantStep step{step_size_.value};
+      const bool mixed = threshold > 0 && threshold <= ~std::uint32_t{0};
       if (exploration_.first_tie) {
-        run<Watch::nothing>(count, {}, CoinExploration<true>{threshold}, step);
+        mixed ? run_coin<true, true>(count, threshold) : run_coin<true, false>(count, threshold);
       } else {
-        run<Watch::nothing>(count, {}, CoinExploration<false>{threshold}, step);
+        mixed ? run_coin<false, true>(count, threshold) : run_coin<false, false>(count, threshold);
       }
     }
+  }
+
+  template <bool first_tie, bool mixed>
+  void run_coin(std::uint64_t count, std::uint64_t threshold) {
+    run<Watch::nothing>(count, {}, CoinExploration<first_tie, mixed>{threshold},
+                        ConstantStep{step_size_.value});
   }
 
   // Not inlined: each instance keeps the registers to itself.
@@ -241,7 +247,7 @@ class TabularLearner final : public Learner {
     const double discount = discount_;
     const std::uint64_t episode_steps = episode_steps_;
     auto step_world = source_.stepper();
-    const std::uint64_t end = walk.step + std::min(count, ~std::uint64_t{0} - walk.step);
+    std::uint64_t end = walk.step + std::min(count, ~std::uint64_t{0} - walk.step);
     RowView<Value> here = rows.view(q, walk.state);
     while (walk.step < end) {
       // 1. Choose an action a in s, see the reward r and the next state s'.
@@ -263,6 +269,7 @@ class TabularLearner final : public Learner {
       rule_.learned(pair, double{revision.value});
       if (!guard_.fine(double{revision.value})) [[unlikely]] {
         look_closer(walk.step, state, chosen.action, double{revision.value});
+        if (progress_.halt != LearnProgress::Halt::none) end = walk.step;
       }
       // 3. Go on from s', or begin the next episode.
       walk.episode_return += double{landing.reward};
@@ -270,6 +277,7 @@ class TabularLearner final : public Learner {
       if constexpr (watch != Watch::nothing) {
         watch_stability(pair, state, landing.terminated ? state : landing.next, here, old,
                         revision);
+        if (progress_.halt != LearnProgress::Halt::none) end = walk.step;
       }
       if constexpr (watch == Watch::log) {
         log[progress_.logged++] =
@@ -284,8 +292,6 @@ class TabularLearner final : public Learner {
         here = landing.next == state ? rows.view(q, state) : there;
         walk.state = landing.next;
       }
-      if (progress_.halt != LearnProgress::Halt::none) [[unlikely]]
-        break;
     }
     walk_ = walk;
   }
