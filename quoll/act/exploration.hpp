@@ -42,24 +42,21 @@ struct Chosen {
   bool explored;
 };
 
-/// The choices that a coin decides, for the loop that has nothing else to ask: uniform is epsilon
-/// 1, greedy epsilon 0. Same draws, same choices as Exploration. `mixed`: the coin falls both ways,
-/// so that a branch on it could not be predicted; then both choices are made and one is masked out.
-template <bool first_tie, bool mixed>
+/// The choices that a coin decides, for the loop over FourRows that has nothing else to ask:
+/// uniform is epsilon 1, greedy epsilon 0. Same draws, same choices as Exploration. `always`: the
+/// coin always says explore, so that nothing waits for the row.
+template <bool first_tie, bool always>
 struct CoinExploration {
   std::uint64_t threshold;  ///< explore when the 32-bit coin is below
 
-  template <class Rows, class Value>
-  Chosen choose(const Rows& rows, const Value* values, const std::uint32_t*, State state,
+  template <class Value>
+  Chosen choose(const FourRows<Value>& rows, const Value*, const std::uint32_t*, State,
                 const RowView<Value>& row, const ChoiceDraws& draws, std::uint64_t) const {
+    if constexpr (always) return {rows.any(row, draws.action()), true};
     const bool explore = draws.coin() < threshold;
-    const Action greedy =
-        first_tie ? rows.first(values, state, row) : rows.pick(values, state, row, draws.tie());
-    if constexpr (mixed) {
-      const Action random = scale(draws.action(), row.legal);
-      return {greedy ^ ((greedy ^ random) & (Action{0} - Action{explore})), explore};
-    }
-    return {explore ? scale(draws.action(), row.legal) : greedy, explore};
+    const std::uint32_t all = 0u - std::uint32_t{explore};
+    const std::uint32_t bits = (draws.action() & all) | (first_tie ? 0 : draws.tie() & ~all);
+    return {rows.of(row.ties | (row.legal & all), bits), explore};
   }
 };
 
@@ -90,12 +87,12 @@ struct Exploration {
                 const RowView<Value>& row, const ChoiceDraws& draws, std::uint64_t step) const {
     switch (kind) {
       case Kind::uniform:
-        return {scale(draws.action(), row.legal), true};
+        return {rows.any(row, draws.action()), true};
       case Kind::epsilon_greedy: {
         const double e = epsilon.at(step);
         const bool explore = draws.coin() < e * 0x1p32;
         const Action greedy = best(rows, values, state, row, draws.tie());
-        return {explore ? scale(draws.action(), row.legal) : greedy, explore};
+        return {explore ? rows.any(row, draws.action()) : greedy, explore};
       }
       case Kind::softmax:
         return softmax(rows, values, state, row, draws, temperature.at(step));
@@ -119,13 +116,14 @@ struct Exploration {
   Chosen softmax(const Rows& rows, const Value* values, State state, const RowView<Value>& row,
                  const ChoiceDraws& draws, double heat) const {
     const Value* q = values + rows.pair(state, 0);
+    const std::uint32_t legal = rows.legal(row);
     double sum = 0.0;
-    for (Action a = 0; a < row.legal; ++a) {
+    for (Action a = 0; a < legal; ++a) {
       sum += math::exp((double{q[a]} - double{row.best}) / heat);
     }
     double rest = draws.coin() * 0x1p-32 * sum;
     Action a = 0;
-    for (; a + 1 < row.legal; ++a) {
+    for (; a + 1 < legal; ++a) {
       rest -= math::exp((double{q[a]} - double{row.best}) / heat);
       if (rest < 0) break;
     }
@@ -138,16 +136,17 @@ struct Exploration {
   Chosen ucb(const Rows& rows, const Value* values, const std::uint32_t* visits, State state,
              const RowView<Value>& row, const ChoiceDraws& draws) const {
     const Value* q = values + rows.pair(state, 0);
+    const std::uint32_t legal = rows.legal(row);
     const std::uint32_t* n = visits + rows.pair(state, 0);
     std::uint64_t total = 0;
     std::uint32_t untried = 0;
-    for (Action a = 0; a < row.legal; ++a) {
+    for (Action a = 0; a < legal; ++a) {
       total += n[a];
       untried += n[a] == 0;
     }
     if (untried > 0) {
       std::uint32_t k = first_tie ? 0 : scale(draws.tie(), untried);
-      for (Action a = 0; a < row.legal; ++a) {
+      for (Action a = 0; a < legal; ++a) {
         if (n[a] == 0 && k-- == 0) return {a, true};
       }
     }
@@ -158,7 +157,7 @@ struct Exploration {
     const auto score = [&](Action a) {
       return double{q[a]} + ucb_scale * __builtin_sqrt(log_total / static_cast<double>(n[a]));
     };
-    for (Action a = 0; a < row.legal; ++a) {
+    for (Action a = 0; a < legal; ++a) {
       const double value = score(a);
       if (value > highest) {
         highest = value;
@@ -170,7 +169,7 @@ struct Exploration {
     }
     if (ties > 1 && !first_tie) {
       std::uint32_t k = scale(draws.tie(), ties);
-      for (Action a = choice; a < row.legal; ++a) {
+      for (Action a = choice; a < legal; ++a) {
         if (score(a) == highest && k-- == 0) return {a, q[a] != row.best};
       }
     }

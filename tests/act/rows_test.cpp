@@ -44,8 +44,8 @@ void same_choices() {
     const auto left = four.view(table.four.data(), s);
     const auto right = ragged.view(table.ragged.data(), s);
     ASSERT_EQ(left.best, right.best);
-    ASSERT_EQ(left.legal, right.legal);
-    ASSERT_EQ(four.count(left), ragged.count(right));
+    ASSERT_EQ(four.legal(left), ragged.legal(right));
+    ASSERT_EQ(four.ties(left), ragged.ties(right));
     ASSERT_EQ(four.first(table.four.data(), s, left), ragged.first(table.ragged.data(), s, right));
     for (int draw = 0; draw < 8; ++draw) {
       const auto bits = static_cast<std::uint32_t>(rng.next());
@@ -66,7 +66,7 @@ void same_choices() {
                                             s, right, draws, 0);
         ASSERT_EQ(a.action, b.action) << static_cast<int>(kind);
         ASSERT_EQ(a.explored, b.explored);
-        ASSERT_LT(a.action, left.legal);
+        ASSERT_LT(a.action, four.legal(left));
       }
     }
   }
@@ -85,13 +85,41 @@ TEST(Rows, TheDrawSelectsAmongTheMaximisers) {
   const FourRows<float> rows;
   const auto view = rows.view(q, 0);
   EXPECT_EQ(view.best, 3.0f);
-  EXPECT_EQ(view.legal, 3u);
-  EXPECT_EQ(rows.count(view), 2u);
+  EXPECT_EQ(rows.legal(view), 3u);
+  EXPECT_EQ(rows.ties(view), 2u);
   EXPECT_EQ(rows.pick(q, 0, view, 0), 1u);
   EXPECT_EQ(rows.pick(q, 0, view, 0x7fffffff), 1u);
   EXPECT_EQ(rows.pick(q, 0, view, 0x80000000), 2u);
   EXPECT_EQ(rows.pick(q, 0, view, 0xffffffff), 2u);
   EXPECT_EQ(rows.first(q, 0, view), 1u);
+}
+
+// The coin of the plain loop, which asks nothing else, falls as Exploration's does.
+TEST(Rows, TheCoinOfThePlainLoopChoosesTheSame) {
+  const BothLayouts<float> table(1);
+  const FourRows<float> rows;
+  Rng rng = stream(3, "draws");
+  Exploration exploration;
+  exploration.kind = Exploration::Kind::epsilon_greedy;
+  for (const double epsilon : {0.0, 0.3, 1.0}) {
+    exploration.epsilon = {epsilon, epsilon, 0};
+    const std::uint64_t threshold = exploration.coin_threshold();
+    for (State s = 0; s < 500; ++s) {
+      const auto row = rows.view(table.four.data(), s);
+      const ChoiceDraws draws = ChoiceDraws::of(rng);
+      const auto choose = [&](auto&& how) {
+        return how.choose(rows, table.four.data(), table.four_visits.data(), s, row, draws, 0)
+            .action;
+      };
+      exploration.first_tie = false;
+      ASSERT_EQ(choose(exploration), choose(CoinExploration<false, false>{threshold}));
+      if (epsilon == 1.0) {
+        ASSERT_EQ(choose(exploration), choose(CoinExploration<false, true>{threshold}));
+      }
+      exploration.first_tie = true;
+      ASSERT_EQ(choose(exploration), choose(CoinExploration<true, false>{threshold}));
+    }
+  }
 }
 
 TEST(Rows, AnEndHasNoActionsAndTheValueZero) {

@@ -220,19 +220,19 @@ class TabularLearner final : public Learner {
   // The fast lane: nothing to watch, a coin for the choice, one step size.
   void run_plain(std::uint64_t count) {
     if constexpr (padded_rows) {
-      const std::uint64_t threshold = exploration_.coin_threshold();
-      const bool mixed = threshold > 0 && threshold <= ~std::uint32_t{0};
+      const bool always = exploration_.coin_threshold() > ~std::uint32_t{0};
       if (exploration_.first_tie) {
-        mixed ? run_coin<true, true>(count, threshold) : run_coin<true, false>(count, threshold);
+        always ? run_coin<true, true>(count) : run_coin<true, false>(count);
       } else {
-        mixed ? run_coin<false, true>(count, threshold) : run_coin<false, false>(count, threshold);
+        always ? run_coin<false, true>(count) : run_coin<false, false>(count);
       }
     }
   }
 
-  template <bool first_tie, bool mixed>
-  void run_coin(std::uint64_t count, std::uint64_t threshold) {
-    run<Watch::nothing>(count, {}, CoinExploration<first_tie, mixed>{threshold},
+  template <bool first_tie, bool always>
+  void run_coin(std::uint64_t count) {
+    run<Watch::nothing>(count, {},
+                        CoinExploration<first_tie, always>{exploration_.coin_threshold()},
                         ConstantStep{step_size_.value});
   }
 
@@ -283,7 +283,7 @@ class TabularLearner final : public Learner {
         log[progress_.logged++] =
             told(walk.step, state, chosen, landing, truncated, old, best_next, revision);
       }
-      if (landing.terminated || truncated) {
+      if (landing.terminated || truncated) [[unlikely]] {
         walk.state = end_episode(walk.episode_return);
         walk.episode_step = 0;
         walk.episode_return = 0.0;
@@ -343,7 +343,7 @@ class TabularLearner final : public Learner {
     if (value != old) {
       const RowView<Value> after = rows_.view(values_.data(), state);
       const bool was_best = old == before.best, is_best = value == after.best;
-      changed = was_best != is_best || (is_best && rows_.count(before) != rows_.count(after));
+      changed = was_best != is_best || (is_best && rows_.ties(before) != rows_.ties(after));
     }
     const double error =
         revision.step_size == 1.0 ? double{value} - double{old} : revision.target - double{old};
