@@ -35,8 +35,8 @@ std::vector<World> the_worlds() {
                          slippery(7),           lottery(),
                          without_model(star()), without_model(slippery(7)),
                          slippery(40, 1.0)};
-  for (const WorldEntry& entry : worlds()) {
-    if (Result<World> world = entry.make({})) all.push_back(std::move(*world));
+  for (const WorldEntry* const entry : worlds()) {
+    if (Result<World> world = entry->make({})) all.push_back(std::move(*world));
   }
   return all;
 }
@@ -82,7 +82,7 @@ std::uint64_t solved(const SolverEntry& entry, const World& world) {
 std::uint64_t stepped(const World& world) {
   Hash hash;
   constexpr std::uint32_t lanes = 3;
-  const auto environment = world.make(lanes, 1);
+  const auto environment = world.make({lanes, 1, 0, nullptr});
   std::vector<State> state(lanes), next(lanes);
   std::vector<Action> action(lanes);
   std::vector<Feedback> feedback(lanes);

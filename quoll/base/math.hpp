@@ -16,4 +16,9 @@ double log(double x);
 /// x^y for x > 0, relative error below 2 ulp + |y log x| * 2^-52; pow(0, y>0) = 0; pow(x, 0) = 1.
 double pow(double x, double y);
 
+/// The sine and cosine of an angle in radians, within 1 ulp for |x| up to 2^20; beyond, x is first
+/// taken modulo the double nearest 2 pi; nan for nan and infinities.
+double sin(double x);
+double cos(double x);
+
 }  // namespace quoll::math

@@ -35,22 +35,11 @@ struct Checked {
   }
 };
 
-bool built_in(const std::string& name) {
-  for (const WorldEntry& entry : worlds()) {
-    const auto aliases = split(entry.aliases, ' ');
-    if (entry.name == name) return true;
-    if (std::find(aliases.begin(), aliases.end(), name) != aliases.end() && !name.empty()) {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// The arrays of a world, of a file before they are validated.
 Result<MdpArrays> open_arrays(const CheckOptions& options) {
   const std::string& name = options.world.name;
   const bool file = name.find('/') != std::string::npos || name.find('.') != std::string::npos;
-  if (file && !built_in(name) && options.world.with.empty()) return read_model_arrays(name);
+  if (file && !is_built_in(name) && options.world.with.empty()) return read_model_arrays(name);
   const Result<World> world = options.world.open();
   if (!world) return world.error();
   if (!world->mdp) return Error{"", 0, 0, "the model of " + world->name + " is not known", ""};

@@ -31,7 +31,7 @@ std::string flags_of(const Options& options) {
 
 std::string bash_completion() {
   std::string verb_names, world_names, cases, values;
-  for (const WorldEntry& world : worlds()) world_names += " " + std::string(world.name);
+  for (const WorldEntry* const world : worlds()) world_names += " " + std::string(world->name);
   for (const Verb& verb : verbs()) {
     Options options;
     verb.declare(options);

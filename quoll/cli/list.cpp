@@ -28,9 +28,9 @@ struct Topic {
 
 std::vector<Line> world_lines() {
   std::vector<Line> lines;
-  for (const WorldEntry& entry : worlds()) {
+  for (const WorldEntry* const entry : worlds()) {
     lines.push_back(
-        {std::string(entry.name), std::string(entry.aliases), std::string(entry.summary)});
+        {std::string(entry->name), std::string(entry->aliases), std::string(entry->summary)});
   }
   return lines;
 }

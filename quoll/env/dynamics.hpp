@@ -10,10 +10,16 @@
 //     quoll::Feedback step(Position& at, quoll::Action action, auto& dice) const { ... }
 //     quoll::State number(const Position& at) const { return at; }    // if states > 0
 //     void observe(const Position& at, std::span<float> x) const;     // if observation > 0
-//     Position position(quoll::State s) const;                        // optional: settable
-//     quoll::Action actions(quoll::State s) const;                    // optional: fewer than
-//     spaces
 //   };
+//
+// It may have more:
+//     Position position(quoll::State s) const;      // settable by number
+//     quoll::Action actions(quoll::State s) const;  // fewer than spaces
+//     std::vector<std::string> action_names() const;
+//     std::string text(const Position& at) const;   // lines for people
+//     quoll::Drawing drawing(const Position& at) const;
+// What `dice` can do stands in env/dice.hpp. A Position that names its fields in a templated
+// persist(auto& archive) shows and takes them by those names.
 
 #include <concepts>
 #include <cstdint>
@@ -25,6 +31,7 @@
 #include <vector>
 
 #include "quoll/base/random.hpp"
+#include "quoll/env/dice.hpp"
 #include "quoll/env/environment.hpp"
 #include "quoll/env/world.hpp"
 
@@ -68,6 +75,12 @@ concept Settable = requires(const D d, State s) {
   { d.position(s) } -> std::convertible_to<typename D::Position>;
 };
 
+/// Worlds whose actions have names.
+template <class D>
+concept HasActionNames = requires(const D d) {
+  { d.action_names() } -> std::same_as<std::vector<std::string>>;
+};
+
 namespace detail {
 
 // The position of a lane as bytes in an archive: persist() if the type has it, else its own bytes.
@@ -104,14 +117,53 @@ constexpr bool complete() {
   return Dynamics<D>;
 }
 
-template <Dynamics D>
-class Batch final : public Environment {
+// One stream for starts and one for steps of each lane.
+struct OwnDice {
+  std::vector<Rng> steps, starts;
+
+  explicit OwnDice(const Lanes& lanes) {
+    for (std::uint32_t lane = 0; lane < lanes.count; ++lane) {
+      steps.push_back(stream(lanes.seed, "world", lane));
+      starts.push_back(stream(lanes.seed, "start", lane));
+    }
+  }
+  Rng& of_start(std::size_t lane) { return starts[lane]; }
+  Rng& of_step(std::size_t lane) { return steps[lane]; }
+  void persist(Archive& archive, std::size_t lane) {
+    archive("dice", steps[lane]);
+    archive("start_dice", starts[lane]);
+  }
+  bool good() const { return true; }
+};
+
+// One generator of each lane for both; lane i is seeded as Gymnasium seeds the i-th of a vector.
+struct OneGuest {
+  std::vector<GuestDice> dice;
+
+  explicit OneGuest(const Lanes& lanes) {
+    for (std::uint32_t lane = 0; lane < lanes.count; ++lane) {
+      if (lanes.draws && lane == 0)
+        dice.emplace_back(lanes.draws);
+      else
+        dice.emplace_back(lanes.seed + lane);
+    }
+  }
+  GuestDice& of_start(std::size_t lane) { return dice[lane]; }
+  GuestDice& of_step(std::size_t lane) { return dice[lane]; }
+  void persist(Archive& archive, std::size_t lane) { archive("dice", dice[lane]); }
+  bool good() const { return dice[0].good(); }
+};
+
+template <Dynamics D, class DiceOfLanes>
+class Batch final : public Environment, private Inspector {
  public:
-  Batch(D dynamics, std::uint32_t lanes, std::uint64_t seed) : dynamics_(std::move(dynamics)) {
-    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
-      dice_.push_back(stream(seed, "world", lane));
-      start_dice_.push_back(stream(seed, "start", lane));
-      Rng first = start_dice_.back();  // restart() draws it again
+  Batch(D dynamics, const Lanes& lanes)
+      : dynamics_(std::move(dynamics)),
+        dice_(lanes),
+        limit_(lanes.episode_steps),
+        elapsed_(lanes.count) {
+    for (std::uint32_t lane = 0; lane < lanes.count; ++lane) {
+      auto first = dice_.of_start(lane);  // restart() draws it again
       positions_.push_back(dynamics_.start(first));
     }
   }
@@ -120,13 +172,16 @@ class Batch final : public Environment {
   void restart(std::span<const std::uint8_t> restart, Experience& now) override {
     for (std::size_t lane = 0; lane < positions_.size(); ++lane) {
       if (!restart[lane]) continue;
-      positions_[lane] = dynamics_.start(start_dice_[lane]);
+      positions_[lane] = dynamics_.start(dice_.of_start(lane));
+      elapsed_[lane] = 0;
       show(lane, now.state, now.observation);
     }
   }
   void step(Experience& now) override {
     for (std::size_t lane = 0; lane < positions_.size(); ++lane) {
-      now.feedback[lane] = dynamics_.step(positions_[lane], now.action[lane], dice_[lane]);
+      Feedback& feedback = now.feedback[lane];
+      feedback = dynamics_.step(positions_[lane], now.action[lane], dice_.of_step(lane));
+      feedback.truncated |= ++elapsed_[lane] == limit_;
       show(lane, now.next, now.next_observation);
     }
   }
@@ -137,6 +192,7 @@ class Batch final : public Environment {
   bool set(std::uint32_t lane, State state) override {
     if constexpr (Settable<D>) {
       positions_[lane] = dynamics_.position(state);
+      elapsed_[lane] = 0;
       return true;
     } else {
       return static_cast<void>(lane), static_cast<void>(state), false;
@@ -144,13 +200,20 @@ class Batch final : public Environment {
   }
   void persist(Archive& archive) override {
     for (std::size_t lane = 0; lane < positions_.size(); ++lane) {
-      archive("dice", dice_[lane]);
-      archive("start_dice", start_dice_[lane]);
+      dice_.persist(archive, lane);
+      archive("elapsed", elapsed_[lane]);
       persist_position(archive, positions_[lane]);
     }
   }
+  Inspector* inspector() override { return this; }
 
  private:
+  using Position = typename D::Position;
+  static constexpr bool named_fields =
+      requires(Position at, TreeWriter& writer) { at.persist(writer); };
+  static constexpr bool has_tree =
+      named_fields || std::is_arithmetic_v<Position> || requires(Position at) { at.size(); };
+
   void show(std::size_t lane, std::span<State> state, std::span<float> observation) const {
     if constexpr (HasNumber<D>) {
       if (!state.empty()) state[lane] = static_cast<State>(dynamics_.number(positions_[lane]));
@@ -163,38 +226,102 @@ class Batch final : public Environment {
     }
   }
 
+  Tree state(std::uint32_t lane, State at) const override {
+    if constexpr (has_tree) return tree_of(positions_[lane]);
+    return Tree(std::int64_t{at});
+  }
+  Result<void> set(std::uint32_t lane, const Tree& state, State& at) override {
+    if constexpr (has_tree) {
+      Position position = positions_[lane];
+      if (Result<void> done = assign(position, state); !done) return done;
+      positions_[lane] = position;
+      elapsed_[lane] = 0;
+      if constexpr (HasNumber<D>) at = static_cast<State>(dynamics_.number(position));
+      return {};
+    } else {
+      return static_cast<void>(lane), static_cast<void>(state), static_cast<void>(at),
+             Error{"", 0, 0, "this world's state cannot be given as data", ""};
+    }
+  }
+  Tree observation(std::uint32_t lane, State at) const override {
+    if constexpr (HasObserve<D>) {
+      const Spaces spaces = dynamics_.spaces();
+      std::vector<float> x(spaces.observation);
+      dynamics_.observe(positions_[lane], x);
+      return observation_tree(spaces, x);
+    } else {
+      return static_cast<void>(lane), Tree(std::int64_t{at});
+    }
+  }
+  std::string text(std::uint32_t lane, State) const override {
+    if constexpr (requires { dynamics_.text(positions_[lane]); }) {
+      return dynamics_.text(positions_[lane]);
+    }
+    return static_cast<void>(lane), std::string();
+  }
+  Drawing drawing(std::uint32_t lane, State) const override {
+    if constexpr (requires { dynamics_.drawing(positions_[lane]); }) {
+      return dynamics_.drawing(positions_[lane]);
+    }
+    return static_cast<void>(lane), Drawing();
+  }
+  bool draws_left() const override { return dice_.good(); }
+
   D dynamics_;
-  std::vector<Rng> dice_, start_dice_;
-  std::vector<typename D::Position> positions_;
+  DiceOfLanes dice_;
+  std::uint64_t limit_;
+  std::vector<std::uint64_t> elapsed_;
+  std::vector<Position> positions_;
 };
 
 }  // namespace detail
 
-/// `lanes` copies of a world stepped together; lane i depends on (seed, i) and its actions alone.
+/// Copies of a world stepped together; lane i depends on (seed, i) and its actions alone. Without a
+/// limit in `lanes` episodes are never cut off.
 template <class D>
-std::unique_ptr<Environment> batch(D dynamics, std::uint32_t lanes, std::uint64_t seed) {
+std::unique_ptr<Environment> batch(D dynamics, const Lanes& lanes,
+                                   Seeding seeding = Seeding::quoll) {
   if constexpr (detail::complete<D>()) {
-    return std::make_unique<detail::Batch<D>>(std::move(dynamics), lanes, seed);
+    if (lanes.draws || seeding == Seeding::gymnasium) {
+      return std::make_unique<detail::Batch<D, detail::OneGuest>>(std::move(dynamics), lanes);
+    }
+    return std::make_unique<detail::Batch<D, detail::OwnDice>>(std::move(dynamics), lanes);
   }
   return nullptr;
 }
 
-/// The World of a plain struct: what it declares, and batches of it. `traits.states` follows
-/// spaces().
+/// What a world of plain dynamics declares besides what its struct says.
+struct WorldFacts {
+  double discount = 0.99;
+  std::uint64_t episode_steps = 0;  ///< the world's own step limit; 0 = none
+  Traits traits;  ///< states, settable and players as far as the struct says are set
+  Seeding seeding = Seeding::quoll;
+};
+
+/// The World of a plain struct: what it declares, and batches of it.
 template <class D>
-World to_world(std::string name, D dynamics, double discount, Traits traits = {}) {
+World to_world(std::string name, D dynamics, const WorldFacts& facts) {
   World world;
   world.name = std::move(name);
-  world.discount = discount;
-  world.traits = traits;
+  world.discount = facts.discount;
+  world.traits = facts.traits;
+  world.episode_steps = facts.episode_steps;
   if constexpr (detail::complete<D>()) {
     world.traits.states = dynamics.spaces().states;
     world.traits.settable = Settable<D>;
-    world.make = [dynamics](std::uint32_t lanes, std::uint64_t seed) {
-      return batch(dynamics, lanes, seed);
+    if constexpr (HasActionNames<D>) world.action_names = dynamics.action_names();
+    world.make = [dynamics, facts](Lanes lanes) {
+      if (lanes.episode_steps == 0) lanes.episode_steps = facts.episode_steps;
+      return batch(dynamics, lanes, facts.seeding);
     };
   }
   return world;
+}
+
+/// The same for a struct of one's own, without a step limit.
+template <class D>
+World to_world(std::string name, D dynamics, double discount, Traits traits = {}) {
+  return to_world(std::move(name), std::move(dynamics), WorldFacts{discount, 0, traits});
 }
 
 }  // namespace quoll

@@ -4,11 +4,14 @@
 #include <memory>
 
 #include "quoll/env/environment.hpp"
+#include "quoll/env/world.hpp"
 #include "quoll/model/mdp.hpp"
 
 namespace quoll {
 
-std::unique_ptr<Environment> mdp_environment(std::shared_ptr<const Mdp> mdp, std::uint32_t lanes,
-                                             std::uint64_t seed);
+/// Without `looks` states look like their numbers.
+std::unique_ptr<Environment> mdp_environment(std::shared_ptr<const Mdp> mdp, const Lanes& lanes,
+                                             std::shared_ptr<const Looks> looks = nullptr,
+                                             Seeding seeding = Seeding::quoll);
 
 }  // namespace quoll

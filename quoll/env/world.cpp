@@ -8,31 +8,58 @@
 
 namespace quoll {
 
-World to_world(std::string name, Mdp mdp) {
+World to_world(std::string name, Mdp mdp, Looks looks, std::uint64_t episode_steps,
+               Seeding seeding) {
   World world;
   world.name = std::move(name);
   world.discount = mdp.discount();
+  world.episode_steps = episode_steps;
   world.traits.deterministic = mdp.deterministic();
   world.traits.settable = true;
   world.traits.states = mdp.states();
   world.traits.reward_bounds = mdp.reward_bounds();
   world.mdp = std::make_shared<const Mdp>(std::move(mdp));
-  world.make = [model = world.mdp](std::uint32_t lanes, std::uint64_t seed) {
-    return mdp_environment(model, lanes, seed);
+  world.make = [model = world.mdp, seen = std::make_shared<const Looks>(std::move(looks)),
+                episode_steps, seeding](Lanes lanes) {
+    if (lanes.episode_steps == 0) lanes.episode_steps = episode_steps;
+    return mdp_environment(model, lanes, seen, seeding);
   };
   return world;
 }
 
 namespace {
 
-const WorldEntry* find_entry(std::string_view name) {
-  for (const WorldEntry& entry : worlds()) {
-    if (entry.name == name) return &entry;
-    for (const std::string_view alias : split(entry.aliases, ' ')) {
-      if (!alias.empty() && alias == name) return &entry;
+// "FrozenLake8x8-v1:map=8x8,slippery=false": a name, and the parameters it stands for.
+struct Alias {
+  std::string_view name;
+  Parameters parameters;
+};
+
+Alias parse_alias(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  Alias alias{text.substr(0, colon), {}};
+  if (colon == std::string_view::npos) return alias;
+  for (const std::string_view pair : split(text.substr(colon + 1), ',')) {
+    const std::size_t equals = pair.find('=');
+    alias.parameters.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
+  }
+  return alias;
+}
+
+struct Found {
+  const WorldEntry* entry = nullptr;
+  Parameters parameters;
+};
+
+Found find_entry(std::string_view name) {
+  for (const WorldEntry* const entry : worlds()) {
+    if (entry->name == name) return {entry, {}};
+    for (const std::string_view text : split(entry->aliases, ' ')) {
+      Alias alias = parse_alias(text);
+      if (!alias.name.empty() && alias.name == name) return {entry, std::move(alias.parameters)};
     }
   }
-  return nullptr;
+  return {};
 }
 
 // "mazes/big.txt" -> "big": what a world from a file is called when the file does not say.
@@ -48,16 +75,25 @@ bool names_a_file(const std::string& text) {
 
 }  // namespace
 
-Result<World> find_world(const std::string& name_or_file,
-                         const std::vector<std::pair<std::string, std::string>>& parameters) {
-  if (const WorldEntry* entry = find_entry(name_or_file)) {
-    Result<World> world = entry->make(parameters);
+bool is_built_in(std::string_view name) {
+  return find_entry(name).entry != nullptr;
+}
+
+Result<World> find_world(const std::string& name_or_file, const Parameters& parameters) {
+  if (Found found = find_entry(name_or_file); found.entry) {
+    found.parameters.insert(found.parameters.end(), parameters.begin(), parameters.end());
+    Result<World> world = found.entry->make(found.parameters);
     if (world) world->parameters = parameters;
     return world;
   }
   if (!names_a_file(name_or_file)) {
     Nearest nearest(name_or_file);
-    for (const WorldEntry& entry : worlds()) nearest.offer(entry.name);
+    for (const WorldEntry* const entry : worlds()) {
+      nearest.offer(entry->name);
+      for (const std::string_view alias : split(entry->aliases, ' ')) {
+        if (!alias.empty()) nearest.offer(parse_alias(alias).name);
+      }
+    }
     return Error{"", 0, 0,
                  "no world '" + name_or_file +
                      "'; a built-in name (see 'quoll list worlds') or a file expected",

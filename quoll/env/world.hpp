@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "quoll/env/dice.hpp"
 #include "quoll/env/environment.hpp"
+#include "quoll/env/parameters.hpp"
 #include "quoll/model/mdp.hpp"
 
 namespace quoll {
@@ -23,33 +25,49 @@ struct Traits {
   std::uint64_t states = 0;  ///< 0 = not enumerable
   std::optional<std::pair<double, double>> reward_bounds;
   enum class StepCost : std::uint8_t { cheap, dear } step_cost = StepCost::cheap;
+  bool libm = false;  ///< its bits depend on the C library's functions
 };
 
 struct World {
   std::string name;
-  std::vector<std::pair<std::string, std::string>> parameters;  ///< as given by --with
+  Parameters parameters;  ///< as given by --with
   Traits traits;
   double discount = 1.0;
-  std::uint64_t episode_steps = 0;  ///< the world's own step limit; 0 = none
-  std::shared_ptr<const Mdp> mdp;   ///< the model, or null when it is not known
-  /// `lanes` environments in one, for a seed.
-  std::function<std::unique_ptr<Environment>(std::uint32_t lanes, std::uint64_t seed)> make;
+  std::uint64_t episode_steps = 0;        ///< the world's own step limit; 0 = none
+  std::shared_ptr<const Mdp> mdp;         ///< the model, or null when it is not known
+  std::vector<std::string> action_names;  ///< of worlds without a model; empty = numbers
+  /// Environments in one; never null.
+  std::function<std::unique_ptr<Environment>(Lanes)> make;
 };
 
-/// The world around a model; traits, discount and environment follow from it.
-World to_world(std::string name, Mdp mdp);
+/// How the states of a model look to people; each may be empty.
+struct Looks {
+  std::function<std::string(State)> text;
+  std::function<Drawing(State)> drawing;
+  std::function<Tree(State)> observation;  ///< empty = the state's number
+};
+
+/// The world around a model; traits, discount and environment follow from it. With Gymnasium's
+/// seeding a step and a start take one uniform number each, and the first outcome, in the order of
+/// the model's arrays, whose running sum exceeds it.
+World to_world(std::string name, Mdp mdp, Looks looks = {}, std::uint64_t episode_steps = 0,
+               Seeding seeding = Seeding::quoll);
 
 /// A built-in name or alias, or a file of a known format, with `--with key=value` parameters.
-Result<World> find_world(const std::string& name_or_file,
-                         const std::vector<std::pair<std::string, std::string>>& parameters = {});
+Result<World> find_world(const std::string& name_or_file, const Parameters& parameters = {});
 
-/// One line of `list worlds`.
+/// Whether find_world() takes this as the name or alias of a built-in world.
+bool is_built_in(std::string_view name);
+
+/// One line of `list worlds`. An alias may set parameters: "FrozenLake8x8-v1:map=8x8".
 struct WorldEntry {
   std::string_view name;
   std::string_view aliases;  ///< separated by blanks
   std::string_view summary;
-  Result<World> (*make)(const std::vector<std::pair<std::string, std::string>>& parameters);
+  std::string_view source;  ///< who describes the world: paper or program
+  Result<World> (*make)(const Parameters& parameters);
+  std::vector<ParameterText> (*parameters)();
 };
-std::span<const WorldEntry> worlds();
+std::span<const WorldEntry* const> worlds();
 
 }  // namespace quoll

@@ -10,7 +10,8 @@ Played play(const World& world, const TablePolicy& policy, std::uint64_t episode
             std::uint64_t seed, double discount, std::uint64_t episode_steps) {
   Played played;
   const std::uint64_t streams_seed = stream(seed, "evaluation").next();
-  const std::unique_ptr<Environment> environment = world.make(1, streams_seed);
+  const std::unique_ptr<Environment> environment =
+      world.make({1, streams_seed, episode_steps, nullptr});
   State state = 0, next = 0;
   Action action = 0;
   Feedback feedback;

@@ -57,7 +57,7 @@ std::uint64_t world_digest(const World& world) {
 
 std::uint64_t default_budget(const World& world) {
   std::uint64_t pairs = world.mdp ? world.mdp->choices() : 0;
-  if (!world.mdp && world.make) pairs = world.traits.states * world.make(1, 1)->spaces().actions;
+  if (!world.mdp && world.make) pairs = world.traits.states * world.make({})->spaces().actions;
   constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max() / 2000;
   return std::max<std::uint64_t>(1'000'000, 2000 * std::min(pairs, most));
 }

@@ -89,12 +89,12 @@ std::vector<double> history(Environment& environment, std::size_t lanes, std::si
 
 template <class Struct>
 void batch_is_its_lanes(std::size_t floats) {
-  const auto five = batch(Struct{}, 5, 11);
-  const auto eight = batch(Struct{}, 8, 11);
-  const auto again = batch(Struct{}, 8, 11);
+  const auto five = batch(Struct{}, {5, 11, 0, nullptr});
+  const auto eight = batch(Struct{}, {8, 11, 0, nullptr});
+  const auto again = batch(Struct{}, {8, 11, 0, nullptr});
   EXPECT_EQ(history(*five, 5, 4, floats, 500), history(*eight, 8, 4, floats, 500));
   EXPECT_NE(history(*again, 8, 4, floats, 500),
-            history(*batch(Struct{}, 8, 12), 8, 4, floats, 500));
+            history(*batch(Struct{}, {8, 12, 0, nullptr}), 8, 4, floats, 500));
 }
 
 TEST(Batch, ALaneDoesNotDependOnHowManyThereAre) {
@@ -104,7 +104,7 @@ TEST(Batch, ALaneDoesNotDependOnHowManyThereAre) {
 
 // Lane 0 of any batch is the struct itself with the streams ("world", 0) and ("start", 0).
 TEST(Batch, IsTheStructSteppedByHand) {
-  const auto environment = batch(Corridor{}, 1, 21);
+  const auto environment = batch(Corridor{}, {1, 21, 0, nullptr});
   Lanes lane(1);
   const std::uint8_t restart = 1;
   Rng dice = stream(21, "world"), start = stream(21, "start");
@@ -128,7 +128,8 @@ TEST(Batch, IsTheStructSteppedByHand) {
 
 TEST(Batch, GoesOnWhereItWasSaved) {
   for (int cut = 1; cut < 40; cut += 3) {
-    const auto whole = batch(Drift{}, 3, 5), loaded = batch(Drift{}, 3, 6);
+    const auto whole = batch(Drift{}, {3, 5, 0, nullptr}),
+               loaded = batch(Drift{}, {3, 6, 0, nullptr});
     history(*whole, 3, 1, 2, cut);
     Archive out;
     whole->persist(out);
@@ -147,12 +148,12 @@ TEST(Batch, APositionOfAnotherWorldIsRefused) {
   out("start_dice", rng);
   out("position", bytes);
   Archive in{std::span<const std::byte>(out.bytes())};
-  batch(Drift{}, 1, 1)->persist(in);
+  batch(Drift{}, {1, 1, 0, nullptr})->persist(in);
   EXPECT_FALSE(in.good());
 }
 
 TEST(Batch, CanBeSetWhereTheStructCan) {
-  const auto corridor = batch(Corridor{}, 2, 1);
+  const auto corridor = batch(Corridor{}, {2, 1, 0, nullptr});
   EXPECT_TRUE(corridor->set(1, 9));
   Lanes lanes(2);
   lanes.state[1] = 9;
@@ -160,7 +161,7 @@ TEST(Batch, CanBeSetWhereTheStructCan) {
   Experience now = lanes.columns();
   corridor->step(now);
   EXPECT_TRUE(lanes.feedback[1].terminated || lanes.next[1] == 8);
-  EXPECT_FALSE(batch(Drift{}, 1, 1)->set(0, 0));
+  EXPECT_FALSE(batch(Drift{}, {1, 1, 0, nullptr})->set(0, 0));
 }
 
 TEST(ToWorld, TakesWhatTheStructSays) {
@@ -170,8 +171,8 @@ TEST(ToWorld, TakesWhatTheStructSays) {
   EXPECT_TRUE(world.traits.settable);
   EXPECT_EQ(world.discount, 0.9);
   EXPECT_EQ(world.mdp, nullptr);
-  EXPECT_EQ(world.make(1, 1)->actions(0), 1u);
-  EXPECT_EQ(world.make(1, 1)->actions(5), 2u);
+  EXPECT_EQ(world.make({})->actions(0), 1u);
+  EXPECT_EQ(world.make({})->actions(5), 2u);
   EXPECT_FALSE(to_world("drift", Drift{}, 0.9).traits.settable);
 }
 

@@ -118,7 +118,7 @@ struct Lane {
 TEST(MdpEnvironment, DrawsLikeTheTable) {
   const auto mdp = std::make_shared<const Mdp>(fork(0.2, 0.3, 0.5));
   const auto table = stochastic_table<double>(*mdp, {0, mdp->choices()});
-  const auto environment = mdp_environment(mdp, 1, 9);
+  const auto environment = mdp_environment(mdp, {1, 9, 0, nullptr});
   Rng rng = stream(9, "world");
   Lane lane;
   for (int i = 0; i < 1000; ++i) {
@@ -134,14 +134,14 @@ TEST(MdpEnvironment, DrawsLikeTheTable) {
 
 TEST(MdpEnvironment, SaysHowManyActionsAStateHas) {
   const auto mdp = std::make_shared<const Mdp>(fork(0.2, 0.3, 0.5));
-  const auto environment = mdp_environment(mdp, 1, 1);
+  const auto environment = mdp_environment(mdp, {});
   EXPECT_EQ(environment->actions(*mdp->find_state("L")), 1u);
   EXPECT_EQ(environment->actions(*mdp->find_state("R")), 0u);
 }
 
 TEST(MdpEnvironment, InAnEndNothingHappensButTheDraw) {
   const auto mdp = std::make_shared<const Mdp>(fork(0.2, 0.3, 0.5));
-  const auto left = mdp_environment(mdp, 1, 1), right = mdp_environment(mdp, 1, 1);
+  const auto left = mdp_environment(mdp, {}), right = mdp_environment(mdp, {});
   Lane a, b;
   a.state = *mdp->find_state("R");
   Experience now = a.columns();

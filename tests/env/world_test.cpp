@@ -19,7 +19,7 @@ TEST(World, FollowsFromItsModel) {
   EXPECT_EQ(world.traits.states, 3u);
   EXPECT_EQ(world.traits.reward_bounds->first, -2.0);
   EXPECT_EQ(world.traits.reward_bounds->second, 3.0);
-  EXPECT_EQ(world.make(2, 1)->spaces().actions, 1u);
+  EXPECT_EQ(world.make({2, 1, 0, nullptr})->spaces().actions, 1u);
 }
 
 TEST(World, TheAdventureIsBuiltIn) {

@@ -14,16 +14,16 @@ namespace {
 
 std::vector<World> all_worlds() {
   std::vector<World> all{learn_tests::slippery(5), learn_tests::star(), learn_tests::lottery()};
-  for (const WorldEntry& entry : worlds()) {
-    Result<World> world = entry.make({});
-    EXPECT_TRUE(world) << entry.name;
+  for (const WorldEntry* const entry : worlds()) {
+    Result<World> world = entry->make({});
+    EXPECT_TRUE(world) << entry->name;
     if (world) all.push_back(std::move(*world));
   }
   return all;
 }
 
 // Lanes of one world, played with their own coins: what each lane saw.
-struct Lanes {
+struct Play {
   std::unique_ptr<Environment> environment;
   std::vector<State> state, next;
   std::vector<Action> action;
@@ -32,8 +32,8 @@ struct Lanes {
   std::vector<Rng> coins;
   std::vector<std::vector<double>> seen;
 
-  Lanes(const World& world, std::uint32_t lanes, std::uint64_t seed)
-      : environment(world.make(lanes, seed)),
+  Play(const World& world, std::uint32_t lanes, std::uint64_t seed)
+      : environment(world.make({lanes, seed, 0, nullptr})),
         state(lanes),
         next(lanes),
         action(lanes),
@@ -80,7 +80,7 @@ TEST(Worlds, RowsSumToOne) {
 
 TEST(Worlds, ABatchIsItsLanes) {
   for (const World& world : all_worlds()) {
-    Lanes three(world, 3, 7), seven(world, 7, 7), one(world, 1, 7);
+    Play three(world, 3, 7), seven(world, 7, 7), one(world, 1, 7);
     three.play(500);
     seven.play(500);
     one.play(500);
@@ -92,7 +92,7 @@ TEST(Worlds, ABatchIsItsLanes) {
 TEST(Worlds, GoOnWhereTheyWereSaved) {
   for (const World& world : all_worlds()) {
     for (int cut = 0; cut < 60; cut += 3) {
-      Lanes whole(world, 2, 7), rest(world, 2, 8);
+      Play whole(world, 2, 7), rest(world, 2, 8);
       whole.play(cut);
       Archive out;
       whole.environment->persist(out);
@@ -117,7 +117,7 @@ TEST(Worlds, SteppedFrequenciesAreTheModelsProbabilities) {
   for (const World& world : all_worlds()) {
     if (!world.mdp) continue;
     const Mdp& mdp = *world.mdp;
-    const auto environment = world.make(1, 3);
+    const auto environment = world.make({1, 3, 0, nullptr});
     State state = 0, next = 0;
     Action action = 0;
     Feedback feedback;

@@ -1,5 +1,9 @@
 #include "quoll/env/worlds/adventure.hpp"
 
+#include <utility>
+
+#include "quoll/env/world.hpp"
+
 #include "quoll/model/formats/format.hpp"
 
 namespace quoll {
@@ -21,10 +25,11 @@ std::string_view adventure_toml() {
   return {};
 }
 
-Result<World> adventure(const std::vector<std::pair<std::string, std::string>>& parameters) {
-  if (!parameters.empty()) {
-    return Error{"--with", 0, 0,
-                 "the world adventure takes no parameters, not '" + parameters[0].first + "'", ""};
+namespace {
+
+Result<World> make(const Parameters& parameters) {
+  if (Result<NoParameters> given = read_parameters<NoParameters>("adventure", parameters); !given) {
+    return given.error();
   }
   Result<MdpArrays> arrays = read_toml(adventure_toml(), "adventure.toml");
   if (!arrays) return arrays.error();
@@ -32,5 +37,15 @@ Result<World> adventure(const std::vector<std::pair<std::string, std::string>>& 
   if (!mdp) return mdp.error();
   return to_world("adventure", std::move(*mdp));
 }
+
+}  // namespace
+
+extern const WorldEntry adventure_world;
+const WorldEntry adventure_world{"adventure",
+                                 "",
+                                 "the lecture's game: six places, two ways to the goal",
+                                 "a reconstruction that meets every number of the lecture",
+                                 make,
+                                 parameters_of<NoParameters>};
 
 }  // namespace quoll

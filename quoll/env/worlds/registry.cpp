@@ -1,18 +1,21 @@
-// The built-in worlds, one line each. A world file of worlds/ is built in under its own name.
+// The built-in worlds, two lines each: its entry is declared, and listed. A world file of worlds/
+// is built in under its own name.
 
 #include "quoll/env/world.hpp"
-#include "quoll/env/worlds/adventure.hpp"
 
 namespace quoll {
+
+extern const WorldEntry adventure_world;
+
 namespace {
 
-constexpr WorldEntry entries[] = {
-    {"adventure", "", "the lecture's game: six places, two ways to the goal", adventure},
+constexpr const WorldEntry* entries[] = {
+    &adventure_world,
 };
 
 }  // namespace
 
-std::span<const WorldEntry> worlds() {
+std::span<const WorldEntry* const> worlds() {
   return entries;
 }
 

@@ -17,7 +17,8 @@ std::unique_ptr<Learner> tabular(const TabularSetup& setup) {
   using Fixed = TableSource<DeterministicTable<Value>>;
   const World& world = *setup.world;
   if (!world.mdp) {
-    std::unique_ptr<Environment> environment = world.make(1, setup.seed);
+    std::unique_ptr<Environment> environment =
+        world.make({1, setup.seed, setup.episode_steps, nullptr});
     const Spaces spaces = environment->spaces();
     std::vector<std::uint64_t> begin(std::size_t{spaces.states} + 1);
     for (State s = 0; s < spaces.states; ++s) {
