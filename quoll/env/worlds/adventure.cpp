@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "quoll/env/world.hpp"
-
 #include "quoll/model/formats/format.hpp"
 
 namespace quoll {
