@@ -6,11 +6,21 @@
 namespace quoll {
 
 extern const WorldEntry adventure_world;
+extern const WorldEntry deep_sea_world;
+extern const WorldEntry dyna_maze_world;
+extern const WorldEntry maze_world;
+extern const WorldEntry puddle_world;
+extern const WorldEntry windy_grid_world;
 
 namespace {
 
 constexpr const WorldEntry* entries[] = {
     &adventure_world,
+    &deep_sea_world,
+    &dyna_maze_world,
+    &maze_world,
+    &puddle_world,
+    &windy_grid_world,
 };
 
 }  // namespace
