@@ -79,6 +79,9 @@ std::uint64_t solved(const SolverEntry& entry, const World& world) {
   return hash.value;
 }
 
+/// Larger worlds are stepped only: learning them would add minutes, and no kind of step.
+constexpr std::uint64_t learned_up_to = 10'000;  // states
+
 std::uint64_t stepped(const World& world) {
   Hash hash;
   constexpr std::uint32_t lanes = 3;
@@ -113,7 +116,9 @@ std::uint64_t signature(bool parts) {
     all.add(value);
   };
   for (const World& world : the_worlds()) {
+    const bool large = world.traits.states > learned_up_to;
     for (const LearnerEntry& entry : learners()) {
+      if (large) break;
       const std::string name = std::string(entry.method) + " " + std::string(entry.rule);
       for (const std::string_view explore : exploration_names) {
         part("learn " + world.name + " " + name + " --explore " + std::string(explore),
@@ -129,7 +134,7 @@ std::uint64_t signature(bool parts) {
       }
     }
     for (const SolverEntry& entry : solvers()) {
-      if (world.mdp) {
+      if (world.mdp && !large) {
         part("solve " + world.name + " " + std::string(entry.name), solved(entry, world));
       }
     }

@@ -8,6 +8,7 @@ namespace quoll {
 extern const WorldEntry adventure_world;
 extern const WorldEntry deep_sea_world;
 extern const WorldEntry dyna_maze_world;
+extern const WorldEntry krk_world;
 extern const WorldEntry maze_world;
 extern const WorldEntry puddle_world;
 extern const WorldEntry windy_grid_world;
@@ -18,6 +19,7 @@ constexpr const WorldEntry* entries[] = {
     &adventure_world,
     &deep_sea_world,
     &dyna_maze_world,
+    &krk_world,
     &maze_world,
     &puddle_world,
     &windy_grid_world,
