@@ -21,4 +21,16 @@ double pow(double x, double y);
 double sin(double x);
 double cos(double x);
 
+/// The tangent, within 1 ulp for |x| up to 2^20; beyond as sin and cos.
+double tan(double x);
+
+/// The angles in [-pi/2, pi/2] with this tangent or sine, within 1 ulp; asin is nan outside [-1,
+/// 1].
+double atan(double x);
+double asin(double x);
+
+/// The angle from the x axis to the point (x, y), in [-pi, pi], within 1 ulp; zeros and infinities
+/// as in C.
+double atan2(double y, double x);
+
 }  // namespace quoll::math

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "quoll/base/double_pair.hpp"
 #include "quoll/base/math.hpp"
 
 // x = k pi/2 + r, |r| <= pi/4, with pi/2 in three parts (Cody, Waite 1980, "Software Manual for the
@@ -53,20 +54,33 @@ Reduced reduce(double x) {
   return {high, (head - high) - tail, static_cast<unsigned>(static_cast<long long>(k)) & 3u};
 }
 
-double sine(const Reduced& r) {
+// Of the reduced angle, as high + low.
+Pair sine(const Reduced& r) {
   const double z = r.high * r.high;
   double sum = 0.0;
   for (const double term : sine_terms) sum = sum * z + term;
   const double cubed = z * r.high;
-  return r.high + (r.low * (1.0 - 0.5 * z) - cubed * sum);
+  return {r.high, r.low * (1.0 - 0.5 * z) - cubed * sum};
 }
 
-double cosine(const Reduced& r) {
+Pair cosine(const Reduced& r) {
   const double z = r.high * r.high;
   double sum = 0.0;
   for (const double term : cosine_terms) sum = sum * z + term;
   const double half = 0.5 * z, one = 1.0 - half;
-  return one + (((1.0 - one) - half) + (z * z * sum - r.high * r.low));
+  return {one, ((1.0 - one) - half) + (z * z * sum - r.high * r.low)};
+}
+
+double value(Pair p) {
+  return p.high + p.low;
+}
+
+double ratio(Pair a, Pair b) {
+  a = sum(a.high, a.low);
+  b = sum(b.high, b.low);
+  const double q = a.high / b.high;
+  const Pair back = product(q, b.high);
+  return q + (((a.high - back.high) - back.low) + (a.low - q * b.low)) / b.high;
 }
 
 }  // namespace
@@ -75,15 +89,22 @@ double sin(double x) {
   if (!std::isfinite(x)) return std::numeric_limits<double>::quiet_NaN();
   if (x == 0.0) return x;
   const Reduced r = reduce(x);
-  const double size = (r.quadrant & 1u) ? cosine(r) : sine(r);
+  const double size = value((r.quadrant & 1u) ? cosine(r) : sine(r));
   return (r.quadrant & 2u) ? -size : size;
 }
 
 double cos(double x) {
   if (!std::isfinite(x)) return std::numeric_limits<double>::quiet_NaN();
   const Reduced r = reduce(x);
-  const double size = (r.quadrant & 1u) ? sine(r) : cosine(r);
+  const double size = value((r.quadrant & 1u) ? sine(r) : cosine(r));
   return r.quadrant == 1u || r.quadrant == 2u ? -size : size;
+}
+
+double tan(double x) {
+  if (!std::isfinite(x)) return std::numeric_limits<double>::quiet_NaN();
+  if (x == 0.0) return x;
+  const Reduced r = reduce(x);
+  return (r.quadrant & 1u) ? -ratio(cosine(r), sine(r)) : ratio(sine(r), cosine(r));
 }
 
 }  // namespace quoll::math
