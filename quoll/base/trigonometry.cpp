@@ -5,10 +5,10 @@
 #include "quoll/base/double_pair.hpp"
 #include "quoll/base/math.hpp"
 
-// x = k pi/2 + r, |r| <= pi/4, with pi/2 in three parts (Cody, Waite 1980, "Software Manual for the
+// x = k pi/2 + r, |r| <= pi/4, with pi/2 in parts (Cody, Waite 1980, "Software Manual for the
 // Elementary Functions", ch. 8): two heads of 33 bits, whose products with k below 2^20 are exact,
-// and a tail. r is carried as high + low; then the Taylor series, whose terms left out are below
-// 2^-60 of the first.
+// and a tail of two doubles, since r can be as small as 2^-60. r is carried as high + low; then the
+// Taylor series, whose terms left out are below 2^-60 of the first.
 //
 //   sin (h + l) = sin h + l cos h,   cos (h + l) = cos h - l sin h
 
@@ -18,6 +18,7 @@ namespace {
 constexpr double half_pi_head = 0x1.921fb544p+0;
 constexpr double half_pi_middle = 0x1.0b4611a6p-34;
 constexpr double half_pi_tail = 0x1.3198a2e037073p-69;
+constexpr double half_pi_rest = 0x1.129024e088a68p-123;
 constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
 constexpr double two_pi = 0x1.921fb54442d18p+2;
 constexpr double exact_below = 0x1p20;
@@ -46,12 +47,12 @@ Reduced reduce(double x) {
   // Beyond the exact range: first into (-2 pi, 2 pi), with the error of two_pi times the turns.
   if (std::fabs(x) > exact_below) x = std::fmod(x, two_pi);
   const double k = std::floor(x * two_over_pi + 0.5);
-  const double rest = x - k * half_pi_head;
-  const double head = rest - k * half_pi_middle;
-  const double lost = (rest - head) - k * half_pi_middle;
-  const double tail = k * half_pi_tail - lost;
-  const double high = head - tail;
-  return {high, (head - high) - tail, static_cast<unsigned>(static_cast<long long>(k)) & 3u};
+  if (k == 0.0) return {x, 0.0, 0};
+  const Pair head = sum(x - k * half_pi_head, -(k * half_pi_middle));
+  const Pair tail = product(k, half_pi_tail);
+  const Pair close = sum(head.high, -tail.high);
+  const Pair r = sum(close.high, close.low + ((head.low - tail.low) - k * half_pi_rest));
+  return {r.high, r.low, static_cast<unsigned>(static_cast<long long>(k)) & 3u};
 }
 
 // Of the reduced angle, as high + low.

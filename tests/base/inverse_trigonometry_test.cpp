@@ -58,6 +58,20 @@ TEST_F(InverseTrigonometry, TanIsWithinOneUlp) {
   EXPECT_GT(worst, 0.4);
 }
 
+// Next to the multiples of pi/2, where most digits of the reduced angle come from far down in pi.
+TEST_F(InverseTrigonometry, NothingIsLostNearZerosAndPoles) {
+  for (int k = 1; k < 667'000; k += k < 1000 ? 1 : 7) {
+    const auto x = static_cast<double>(static_cast<long double>(k) * 1.5707963267948966192313L);
+    for (const double y : {x, std::nextafter(x, 1e9), std::nextafter(x, 0.0)}) {
+      note(math::tan(y), tanl(y));
+      note(math::sin(y), sinl(y));
+      note(math::cos(y), cosl(y));
+    }
+  }
+  EXPECT_LT(worst, 1);
+  EXPECT_GT(worst, 0.4);
+}
+
 TEST_F(InverseTrigonometry, AtanIsWithinOneUlp) {
   Rng rng = stream(2, "atan");
   const auto check = [&](double x) { note(math::atan(x), atanl(x)); };
