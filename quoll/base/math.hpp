@@ -21,7 +21,7 @@ double pow(double x, double y);
 double sin(double x);
 double cos(double x);
 
-/// The tangent, within 1 ulp for |x| up to 2^20; beyond as sin and cos.
+/// The tangent, within 2 ulp for |x| up to 2^20; beyond as sin and cos.
 double tan(double x);
 
 /// The angles in [-pi/2, pi/2] with this tangent or sine, within 1 ulp; asin is nan outside [-1,

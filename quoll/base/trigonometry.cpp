@@ -103,7 +103,7 @@ double cos(double x) {
 
 double tan(double x) {
   if (!std::isfinite(x)) return std::numeric_limits<double>::quiet_NaN();
-  if (x == 0.0) return x;
+  if (std::fabs(x) < 0x1p-27) return x;
   const Reduced r = reduce(x);
   return (r.quadrant & 1u) ? -ratio(cosine(r), sine(r)) : ratio(sine(r), cosine(r));
 }

@@ -44,7 +44,7 @@ double any(Rng& rng) {
   }
 }
 
-TEST_F(InverseTrigonometry, TanIsWithinOneUlp) {
+TEST_F(InverseTrigonometry, TanIsWithinTwoUlps) {
   Rng rng = stream(1, "tan");
   const auto check = [&](double x) { note(math::tan(x), tanl(x)); };
   for (int i = 0; i < 600'000; ++i) check((rng.uniform() - 0.5) * 8);
@@ -54,7 +54,7 @@ TEST_F(InverseTrigonometry, TanIsWithinOneUlp) {
     const double x = k * (pi / 4);
     for (const double y : {x, std::nextafter(x, 1e9), std::nextafter(x, -1e9)}) check(y);
   }
-  EXPECT_LT(worst, 1);
+  EXPECT_LT(worst, 2);
   EXPECT_GT(worst, 0.4);
 }
 
