@@ -24,8 +24,7 @@ double cos(double x);
 /// The tangent, within 2 ulp for |x| up to 2^20; beyond as sin and cos.
 double tan(double x);
 
-/// The angles in [-pi/2, pi/2] with this tangent or sine, within 1 ulp; asin is nan outside [-1,
-/// 1].
+/// The angles in [-pi/2, pi/2] with this tangent or sine, within 1 ulp. asin is nan beyond 1.
 double atan(double x);
 double asin(double x);
 
