@@ -18,6 +18,7 @@
 //     std::vector<std::string> action_names() const;
 //     std::string text(const Position& at) const;   // lines for people
 //     quoll::Drawing drawing(const Position& at) const;
+//     quoll::Tree observation(const Position& at) const;   // for people, if not what is above
 // What `dice` can do stands in env/dice.hpp. A Position that names its fields in a templated
 // persist(auto& archive) shows and takes them by those names.
 
@@ -244,7 +245,9 @@ class Batch final : public Environment, private Inspector {
     }
   }
   Tree observation(std::uint32_t lane, State at) const override {
-    if constexpr (HasObserve<D>) {
+    if constexpr (requires { dynamics_.observation(positions_[lane]); }) {
+      return static_cast<void>(at), dynamics_.observation(positions_[lane]);
+    } else if constexpr (HasObserve<D>) {
       const Spaces spaces = dynamics_.spaces();
       std::vector<float> x(spaces.observation);
       dynamics_.observe(positions_[lane], x);
