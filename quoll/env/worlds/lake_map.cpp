@@ -36,7 +36,7 @@ bool has_path(const LetterGrid& map) {
 }  // namespace
 
 Result<LetterGrid> generated_lake(std::uint64_t size, double p, std::uint64_t seed) {
-  constexpr std::uint64_t most_cells = 100'000'000;
+  constexpr std::uint64_t most_cells = 10'000'000;
   NumpyRandom random(seed);
   const double frozen = p / (p + (1.0 - p));  // running sums end in exactly 1
   LetterGrid map(size, std::string(size, 'F'));
