@@ -11,7 +11,7 @@
 
 #include <utility>
 
-#include "quoll/env/worlds/letter_grid.hpp"
+#include "quoll/env/worlds/pictures.hpp"
 #include "quoll/env/worlds/table_writer.hpp"
 
 #include "quoll/env/world.hpp"
@@ -30,10 +30,6 @@ struct CliffSettings {
 };
 
 constexpr State columns = 12, rows = 4, start = 36, goal = 47;
-
-LetterGrid cliff_grid() {
-  return {"............", "............", "............", "SCCCCCCCCCCG"};
-}
 
 State moved(State s, Action way) {
   const State row = s / columns, column = s % columns;
@@ -67,8 +63,9 @@ Result<Mdp> cliff_model(bool slippery) {
   for (const std::string_view name : {"up", "right", "down", "left"}) {
     table.arrays().action_names.push_back(name);
   }
-  table.arrays().state_names = letter_names(cliff_grid());
-  table.arrays().layout = letter_layout(cliff_grid(), {{0, -1}, {1, 0}, {0, 1}, {-1, 0}});
+  Layout layout = grid_layout(rows, columns, {{0, -1}, {1, 0}, {0, 1}, {-1, 0}});
+  table.arrays().state_names = Names::cells(columns, layout.cell);
+  table.arrays().layout = std::move(layout);
   return table.finish();
 }
 
@@ -78,9 +75,8 @@ Result<World> make(const Parameters& parameters) {
   if (!settings) return settings.error();
   Result<Mdp> mdp = cliff_model(settings->slippery);
   if (!mdp) return mdp.error();
-  Looks looks;
-  looks.text = [](State s) { return letter_text(cliff_grid(), s); };
-  looks.drawing = [](State s) { return letter_drawing(cliff_grid(), s); };
+  Looks looks = grid_looks({"............", "............", "............", "SCCCCCCCCCCG"},
+                           mdp->layout()->cell);
   return to_world("cliff-walking", std::move(*mdp), std::move(looks), 0, settings->seeding);
 }
 

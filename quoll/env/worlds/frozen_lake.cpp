@@ -14,7 +14,7 @@
 
 #include "quoll/base/text.hpp"
 #include "quoll/env/worlds/lake_map.hpp"
-#include "quoll/env/worlds/letter_grid.hpp"
+#include "quoll/env/worlds/pictures.hpp"
 #include "quoll/env/worlds/table_writer.hpp"
 
 #include "quoll/env/world.hpp"
@@ -63,11 +63,11 @@ Result<void> without_effect(const LakeSettings& settings) {
   return {};
 }
 
-Result<LetterGrid> map_of(const LakeSettings& settings) {
-  if (settings.map == "4x4") return LetterGrid{"SFFF", "FHFH", "FFFH", "HFFG"};
+Result<LakeMap> map_of(const LakeSettings& settings) {
+  if (settings.map == "4x4") return LakeMap{"SFFF", "FHFH", "FFFH", "HFFG"};
   if (settings.map == "8x8") {
-    return LetterGrid{"SFFFFFFF", "FFFFFFFF", "FFFHFFFF", "FFFFFHFF",
-                      "FFFHFFFF", "FHHFFFHF", "FHFFHFHF", "FFFHFFFG"};
+    return LakeMap{"SFFFFFFF", "FFFFFFFF", "FFFHFFFF", "FFFFFHFF",
+                   "FFFHFFFF", "FHHFFFHF", "FHFFHFHF", "FFFHFFFG"};
   }
   if (settings.map == "generated") {
     return generated_lake(settings.size, settings.p, settings.seed);
@@ -81,7 +81,7 @@ Result<LetterGrid> map_of(const LakeSettings& settings) {
 
 class Lake {
  public:
-  Lake(const LakeSettings& settings, const LetterGrid& map)
+  Lake(const LakeSettings& settings, const LakeMap& map)
       : settings_(settings),
         map_(map),
         rows_(static_cast<State>(map.size())),
@@ -101,8 +101,9 @@ class Lake {
     for (const std::string_view name : {"left", "down", "right", "up"}) {
       table.arrays().action_names.push_back(name);
     }
-    table.arrays().state_names = letter_names(map_);
-    table.arrays().layout = letter_layout(map_, {{-1, 0}, {0, 1}, {1, 0}, {0, -1}});
+    Layout layout = grid_layout(rows_, columns_, {{-1, 0}, {0, 1}, {1, 0}, {0, -1}});
+    table.arrays().state_names = Names::cells(columns_, layout.cell);
+    table.arrays().layout = std::move(layout);
     return table.finish();
   }
 
@@ -133,7 +134,7 @@ class Lake {
   }
 
   const LakeSettings& settings_;
-  const LetterGrid& map_;
+  const LakeMap& map_;
   State rows_, columns_;
 };
 
@@ -141,15 +142,14 @@ Result<World> make(const Parameters& parameters) {
   const Result<LakeSettings> settings = read_parameters<LakeSettings>("frozen-lake", parameters);
   if (!settings) return settings.error();
   if (Result<void> sound = without_effect(*settings); !sound) return sound.error();
-  Result<LetterGrid> map = map_of(*settings);
+  Result<LakeMap> map = map_of(*settings);
   if (!map) return map.error();
   Result<Mdp> mdp = Lake(*settings, *map).model();
   if (!mdp) return mdp.error();
   const std::uint64_t limit =
       std::max<std::uint64_t>(100, 25 * (map->size() + map->front().size()) / 2);
-  Looks looks;
-  looks.text = [map = *map](State s) { return letter_text(map, s); };
-  looks.drawing = [map = *map](State s) { return letter_drawing(map, s); };
+  for (std::string& row : *map) std::replace(row.begin(), row.end(), 'F', '.');
+  Looks looks = grid_looks(std::move(*map), mdp->layout()->cell);
   return to_world("frozen-lake", std::move(*mdp), std::move(looks), limit, settings->seeding);
 }
 

@@ -11,7 +11,7 @@ namespace quoll {
 namespace {
 
 // Whether the goal can be reached from the top left cell without entering a hole.
-bool has_path(const LetterGrid& map) {
+bool has_path(const LakeMap& map) {
   const std::size_t size = map.size();
   std::vector<std::uint8_t> seen(size * size);
   std::vector<std::size_t> open{0};
@@ -35,11 +35,11 @@ bool has_path(const LetterGrid& map) {
 
 }  // namespace
 
-Result<LetterGrid> generated_lake(std::uint64_t size, double p, std::uint64_t seed) {
+Result<LakeMap> generated_lake(std::uint64_t size, double p, std::uint64_t seed) {
   constexpr std::uint64_t most_cells = 10'000'000;
   NumpyRandom random(seed);
   const double frozen = p / (p + (1.0 - p));  // running sums end in exactly 1
-  LetterGrid map(size, std::string(size, 'F'));
+  LakeMap map(size, std::string(size, 'F'));
   for (std::uint64_t cells = 0; cells < most_cells; cells += size * size) {
     for (std::string& row : map) {
       for (char& letter : row) letter = frozen > random.random() ? 'F' : 'H';
@@ -54,10 +54,10 @@ Result<LetterGrid> generated_lake(std::uint64_t size, double p, std::uint64_t se
                ""};
 }
 
-Result<LetterGrid> read_lake(const std::string& path) {
+Result<LakeMap> read_lake(const std::string& path) {
   const Result<std::string> content = read_file(path);
   if (!content) return content.error();
-  LetterGrid map;
+  LakeMap map;
   bool has_start = false;
   std::uint64_t number = 0;
   for (const std::string_view line : split(*content, '\n')) {

@@ -1,6 +1,7 @@
 #include "quoll/env/worlds/pictures.hpp"
 
 #include <memory>
+#include <numeric>
 
 namespace quoll {
 namespace {
@@ -39,6 +40,8 @@ struct Picture {
         return Ink::goal;
       case '~':
       case 'P':
+      case 'H':
+      case 'C':
         return Ink::danger;
       default:
         return Ink::floor;
@@ -57,6 +60,13 @@ Looks grid_looks(std::vector<std::string> picture, std::vector<std::uint32_t> ce
   return looks;
 }
 
+Layout grid_layout(std::uint32_t rows, std::uint32_t columns,
+                   std::vector<std::pair<int, int>> direction) {
+  std::vector<std::uint32_t> cells(std::size_t{rows} * columns);
+  std::iota(cells.begin(), cells.end(), 0u);
+  return {rows, columns, std::move(cells), std::move(direction)};
+}
+
 Looks row_looks(std::string letters) {
   std::vector<std::uint32_t> cells(letters.size());
   for (std::uint32_t i = 0; i < cells.size(); ++i) cells[i] = i;
@@ -64,9 +74,7 @@ Looks row_looks(std::string letters) {
 }
 
 Layout row_layout(std::uint32_t states, std::vector<std::pair<int, int>> direction) {
-  Layout layout{1, states, std::vector<std::uint32_t>(states), std::move(direction)};
-  for (std::uint32_t i = 0; i < states; ++i) layout.cell[i] = i;
-  return layout;
+  return grid_layout(1, states, std::move(direction));
 }
 
 std::string cell_name(std::uint32_t row, std::uint32_t column) {

@@ -11,12 +11,17 @@
 namespace quoll {
 
 /// The pictures of a grid. `cells[s]` = row * columns + column of state s; rows are equally long.
-/// Letters: '#' wall, 'G' and 'F' goals, '~' and 'P' danger, ' ' nothing, all others floor.
+/// Letters: '#' wall, 'G' and 'F' goals, '~', 'P', 'H' and 'C' danger, ' ' nothing, all others
+/// floor.
 Looks grid_looks(std::vector<std::string> picture, std::vector<std::uint32_t> cells);
+
+/// Every cell a state, in reading order; `direction` as in Layout.
+Layout grid_layout(std::uint32_t rows, std::uint32_t columns,
+                   std::vector<std::pair<int, int>> direction);
 
 /// States that stand side by side, one letter each.
 Looks row_looks(std::string letters);
-/// Their layout; `direction` as in Layout.
+/// Their layout.
 Layout row_layout(std::uint32_t states, std::vector<std::pair<int, int>> direction);
 
 /// "r3c14", as grids name their cells.

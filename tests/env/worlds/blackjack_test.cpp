@@ -6,7 +6,7 @@
 
 #include "played.hpp"
 
-namespace quoll::test {
+namespace quoll::world_tests {
 namespace {
 
 Tree tuple(std::int64_t sum, std::int64_t dealer, std::int64_t usable) {
@@ -16,7 +16,7 @@ Tree tuple(std::int64_t sum, std::int64_t dealer, std::int64_t usable) {
 Played with_cards(const Parameters& parameters, std::vector<double> draws,
                   const std::vector<Action>& actions) {
   return play(
-      world_of("blackjack", parameters), 1, static_cast<int>(actions.size()),
+      made("blackjack", parameters), 1, static_cast<int>(actions.size()),
       [&](int t) { return actions[t]; }, std::make_shared<const std::vector<double>>(draws));
 }
 
@@ -31,7 +31,7 @@ TEST(Blackjack, HasTheKnownOptima) {
                       {"natural", -0.025642267, -0.024836730, -0.025729183},
                       {"plain", -0.046469062, -0.045663525, -0.046555977}};
   for (const Row& row : rows) {
-    const World world = world_of("Blackjack-v1", {{"rules", row.rules}});
+    const World world = made("Blackjack-v1", {{"rules", row.rules}});
     EXPECT_NEAR(optimum(world, 0.99), row.far, 6e-10) << row.rules;
     EXPECT_NEAR(optimum(world, 0.9), row.near, 6e-10) << row.rules;
     EXPECT_NEAR(optimum(world, 1.0), row.undiscounted, 6e-10) << row.rules;
@@ -39,7 +39,7 @@ TEST(Blackjack, HasTheKnownOptima) {
 }
 
 TEST(Blackjack, NamesItsHands) {
-  const World world = world_of("blackjack");
+  const World world = made("blackjack");
   const Mdp& mdp = *world.mdp;
   EXPECT_EQ(mdp.states(), 293u);
   EXPECT_EQ(mdp.state_name(0), "hard-4-vs-A");
@@ -89,7 +89,7 @@ TEST(Blackjack, PaysANaturalByTheRules) {
 
 // Gymnasium 1.4 in preparation, Blackjack-v1, env.reset(seed=42), actions 1, 1, 0, 1, 1, 0, ...
 TEST(Blackjack, FollowsGymnasiumForTheSameSeed) {
-  const World world = world_of("Blackjack-v1", {{"seeding", "gymnasium"}});
+  const World world = made("Blackjack-v1", {{"seeding", "gymnasium"}});
   const Played played = play(world, 42, 16, [](int t) { return Action(t % 3 != 2); });
   const std::vector<Tree> starts{tuple(15, 2, 0), tuple(5, 2, 0),   tuple(17, 10, 0),
                                  tuple(13, 7, 0), tuple(14, 6, 0),  tuple(21, 2, 1),
@@ -104,7 +104,7 @@ TEST(Blackjack, FollowsGymnasiumForTheSameSeed) {
 }
 
 TEST(Blackjack, RefusesImpossibleHands) {
-  const auto environment = world_of("blackjack").make({1, 1, 0, nullptr});
+  const auto environment = made("blackjack").make({1, 1, 0, nullptr});
   Inspector& look = *environment->inspector();
   State at = 0;
   Tree state = look.state(0, 0);
@@ -119,4 +119,4 @@ TEST(Blackjack, RefusesImpossibleHands) {
 }
 
 }  // namespace
-}  // namespace quoll::test
+}  // namespace quoll::world_tests

@@ -10,15 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "moves.hpp"
 #include "quoll/env/world.hpp"
 
-namespace quoll::test {
-
-inline World world_of(const std::string& name, const Parameters& parameters = {}) {
-  Result<World> world = find_world(name, parameters);
-  EXPECT_TRUE(world) << (world ? "" : message(world.error()));
-  return std::move(*world);
-}
+namespace quoll::world_tests {
 
 inline Error refused(const std::string& name, const Parameters& parameters) {
   const Result<World> world = find_world(name, parameters);
@@ -119,4 +114,4 @@ inline double optimum_in(const World& world, std::uint64_t steps) {
   return at_start(mdp, value);
 }
 
-}  // namespace quoll::test
+}  // namespace quoll::world_tests

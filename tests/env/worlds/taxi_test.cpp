@@ -6,15 +6,15 @@
 
 #include "played.hpp"
 
-namespace quoll::test {
+namespace quoll::world_tests {
 namespace {
 
 // Value iteration over the tables of Gymnasium's program (Taxi-v4), mean over the 300 starts.
 TEST(Taxi, HasTheKnownOptima) {
-  EXPECT_NEAR(optimum(world_of("taxi"), 0.99), 6.327464314919, 6e-13);
-  EXPECT_NEAR(optimum(world_of("taxi"), 0.9), -1.263323099040, 6e-13);
-  EXPECT_NEAR(optimum_in(world_of("taxi"), 200), 7.93, 1e-12);
-  const World rainy = world_of("taxi", {{"rainy", "true"}});
+  EXPECT_NEAR(optimum(made("taxi"), 0.99), 6.327464314919, 6e-13);
+  EXPECT_NEAR(optimum(made("taxi"), 0.9), -1.263323099040, 6e-13);
+  EXPECT_NEAR(optimum_in(made("taxi"), 200), 7.93, 1e-12);
+  const World rainy = made("taxi", {{"rainy", "true"}});
   EXPECT_NEAR(optimum(rainy, 0.99), 2.247629323605, 6e-13);
   EXPECT_NEAR(optimum(rainy, 0.9), -3.763146500302, 6e-13);
   EXPECT_NEAR(optimum_in(rainy, 200), 3.954575, 6e-7);
@@ -23,7 +23,7 @@ TEST(Taxi, HasTheKnownOptima) {
 TEST(Taxi, NumbersItsStates) {
   for (State s = 0; s < cab_states; ++s) EXPECT_EQ(cab_number(cab_of(s)), s);
   EXPECT_EQ(cab_number({3, 1, 2, 0}), 328u);
-  const World world = world_of("Taxi-v3");
+  const World world = made("Taxi-v3");
   EXPECT_EQ(world.mdp->state_name(328), "r3c1-Y-to-R");
   EXPECT_EQ(world.mdp->state_name(cab_number({0, 0, aboard, 3})), "r0c0-aboard-to-B");
   EXPECT_EQ(world.mdp->start().size(), 300u);
@@ -48,7 +48,7 @@ TEST(Taxi, DrivesBetweenWalls) {
 }
 
 TEST(Taxi, RainPushesToTheSidesOfAMoveThatIsMade) {
-  const World world = world_of("taxi", {{"rainy", "true"}});
+  const World world = made("taxi", {{"rainy", "true"}});
   const Mdp& mdp = *world.mdp;
   const auto outcomes = [&](const Cab& cab, Action a) {
     std::vector<State> next;
@@ -66,11 +66,11 @@ TEST(Taxi, RainPushesToTheSidesOfAMoveThatIsMade) {
 // Gymnasium 1.4 in preparation, Taxi-v4, env.reset(seed=42) with actions t % 4, and is_rainy=True
 // with seed 3 and actions t % 6.
 TEST(Taxi, FollowsGymnasiumForTheSameSeed) {
-  const Played dry = play(world_of("Taxi-v4", {{"seeding", "gymnasium"}}), 42, 12,
+  const Played dry = play(made("Taxi-v4", {{"seeding", "gymnasium"}}), 42, 12,
                           [](int t) { return Action(t % 4); });
   EXPECT_EQ(dry.starts, numbers({386}));
   EXPECT_EQ(dry.observed, numbers({486, 386, 386, 366, 466, 366, 386, 366, 466, 366, 386, 366}));
-  const Played wet = play(world_of("taxi", {{"rainy", "true"}, {"seeding", "gymnasium"}}), 3, 24,
+  const Played wet = play(made("taxi", {{"rainy", "true"}, {"seeding", "gymnasium"}}), 3, 24,
                           [](int t) { return Action(t % 6); });
   EXPECT_EQ(wet.starts, numbers({42}));
   EXPECT_EQ(wet.observed, numbers({142, 142, 162, 142, 142, 142, 242, 142, 162, 142, 142, 142,
@@ -81,14 +81,14 @@ TEST(Taxi, FollowsGymnasiumForTheSameSeed) {
 // and changes to R on the first move.
 TEST(Taxi, APassengerMayChangeHisMindAsInGymnasium) {
   const std::vector<Action> actions{3, 4, 0, 1, 0, 0, 0};
-  const World guest = world_of("taxi", {{"fickle", "true"}, {"seeding", "gymnasium"}});
+  const World guest = made("taxi", {{"fickle", "true"}, {"seeding", "gymnasium"}});
   const Played played = play(guest, 285, 7, [&](int t) { return actions[t]; });
   EXPECT_EQ(played.starts, numbers({21}));
   EXPECT_EQ(played.observed, numbers({1, 17, 116, 16, 116, 216, 316}));
 }
 
 TEST(Taxi, AFickleTaxiKnowsWhetherTheFirstMoveWasMade) {
-  const World world = world_of("taxi", {{"fickle", "true"}, {"fickle_probability", "0.6"}});
+  const World world = made("taxi", {{"fickle", "true"}, {"fickle_probability", "0.6"}});
   const Mdp& mdp = *world.mdp;
   EXPECT_EQ(mdp.states(), 1000u);
   const State here = cab_number({2, 2, aboard, 1});
@@ -110,7 +110,7 @@ TEST(Taxi, AFickleTaxiKnowsWhetherTheFirstMoveWasMade) {
 // The frequencies of the program that draws the mind at the start are those of the table.
 TEST(Taxi, BothWaysOfDrawingTheMindAreAlike) {
   const Parameters guest{{"fickle", "true"}, {"seeding", "gymnasium"}};
-  const auto environment = world_of("taxi", guest).make({1, 5, 0, nullptr});
+  const auto environment = made("taxi", guest).make({1, 5, 0, nullptr});
   const State here = cab_number({2, 2, aboard, 1});
   State state = here, next = 0;
   Action south = 0;
@@ -135,4 +135,4 @@ TEST(Taxi, ShowsItsTown) {
 }
 
 }  // namespace
-}  // namespace quoll::test
+}  // namespace quoll::world_tests
