@@ -6,6 +6,7 @@
 namespace quoll {
 
 extern const WorldEntry adventure_world;
+extern const WorldEntry bicycle_world;
 extern const WorldEntry blackjack_world;
 extern const WorldEntry cliff_walking_world;
 extern const WorldEntry deep_sea_world;
@@ -21,6 +22,7 @@ namespace {
 
 constexpr const WorldEntry* entries[] = {
     &adventure_world,
+    &bicycle_world,
     &blackjack_world,
     &cliff_walking_world,
     &deep_sea_world,
