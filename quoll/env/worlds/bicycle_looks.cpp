@@ -27,8 +27,9 @@ std::string gauge(double angle, double limit) {
   scale[10] = '|';
   const double share = std::clamp(angle / limit, -1.0, 1.0);
   scale[static_cast<std::size_t>(10.5 - 10.0 * share)] = '*';
-  const std::string side = angle > 0.0 ? " left" : angle < 0.0 ? " right" : "";
-  return "[" + scale + "] " + tenths(degrees(angle)) + " degrees" + side;
+  const std::string size = tenths(degrees(angle));
+  const std::string_view side = size == "0" ? "" : angle > 0.0 ? " left" : " right";
+  return "[" + scale + "] " + size + " degrees" + std::string(side);
 }
 
 // The ground as it is seen: a square of 100 units around everything there is to see.
