@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cctype>
 
 #include "quoll/base/file.hpp"
 #include "quoll/base/text.hpp"
@@ -16,13 +17,13 @@ namespace quoll::cli {
 namespace {
 
 struct NewOptions {
-  std::string kind;
+  std::string kind, name;
   std::vector<std::string> with;
   std::string file;
   bool force = false;
 };
 
-Result<std::string> maze_text(const std::vector<std::pair<std::string, std::string>>& with) {
+Result<std::string> maze_text(const Parameters& with, const std::string&) {
   MazeSettings settings;
   const std::vector<Setting> known = settings_of(settings);
   for (const auto& [key, text] : with) {
@@ -40,26 +41,44 @@ Result<std::string> maze_text(const std::vector<std::pair<std::string, std::stri
 }
 
 Result<std::string> fixed_text(std::string_view text, std::string_view kind,
-                               const std::vector<std::pair<std::string, std::string>>& with) {
+                               const Parameters& with) {
   if (with.empty()) return std::string(text);
   return Error{"--with", 0, 0,
                "a " + std::string(kind) + " takes no parameters, not '" + with[0].first + "'", ""};
 }
 
-using Parameters = std::vector<std::pair<std::string, std::string>>;
+/// A name that can be part of a C++ name and of a file's.
+Result<std::string> world_text(const Parameters& with, const std::string& name) {
+  bool fits = !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0;
+  for (const char letter : name) {
+    fits = fits && (std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '-');
+  }
+  if (!fits) {
+    return Error{
+        "new world", 0, 0,
+        "a name of letters, digits and '-' expected, beginning with a letter, not '" + name + "'",
+        ""};
+  }
+  return fixed_text(world_template(name), "world", with);
+}
 
 struct Kind {
   std::string_view name;
   std::string_view extension;
-  Result<std::string> (*make)(const Parameters& with);
+  Result<std::string> (*make)(const Parameters& with, const std::string& name);
 };
 
-constexpr std::array<Kind, 3> kinds{{
+constexpr std::array<Kind, 4> kinds{{
     {"maze", ".txt", maze_text},
     {"template", ".toml",
-     [](const Parameters& with) { return fixed_text(toml_template(), "template", with); }},
+     [](const Parameters& with, const std::string&) {
+       return fixed_text(toml_template(), "template", with);
+     }},
     {"csv-template", ".csv",
-     [](const Parameters& with) { return fixed_text(csv_template(), "csv-template", with); }},
+     [](const Parameters& with, const std::string&) {
+       return fixed_text(csv_template(), "csv-template", with);
+     }},
+    {"world", ".cpp", world_text},
 }};
 
 Result<const Kind*> find_kind(const std::string& name) {
@@ -68,7 +87,7 @@ Result<const Kind*> find_kind(const std::string& name) {
     if (kind.name == name) return &kind;
     nearest.offer(kind.name);
   }
-  return Error{"new", 0, 0, "maze, template or csv-template expected, not '" + name + "'",
+  return Error{"new", 0, 0, "maze, template, csv-template or world expected, not '" + name + "'",
                nearest.best()};
 }
 
@@ -96,11 +115,18 @@ Exit make_new(const NewOptions& options) {
     const Result<void> may = may_write(options, **kind);
     if (!may) return fail(may.error());
   }
-  const Result<std::string> text = (*kind)->make(source->parameters);
+  if (!options.name.empty() && (*kind)->name != "world") {
+    return fail({"new", 0, 0, "only a world takes a name; a file is given by -o", ""});
+  }
+  const Result<std::string> text = (*kind)->make(source->parameters, options.name);
   if (!text) return fail(text.error());
   if (options.file.empty()) return print(*text) ? done : user_error;
   const Result<void> written = write_file(options.file, *text);
   if (!written) return fail(written.error());
+  if ((*kind)->name == "world") {
+    return print("wrote " + options.file + "; its first lines say how to build it\n") ? done
+                                                                                      : user_error;
+  }
   return print(fmt::format("wrote {0}\nNext: quoll check {0} | quoll solve {0} | quoll learn {0}\n",
                            options.file))
              ? done
@@ -111,7 +137,8 @@ Exit make_new(const NewOptions& options) {
 
 void declare_new(Options& options) {
   auto given = std::make_shared<NewOptions>();
-  options.word("kind", given->kind, "maze, template or csv-template");
+  options.word("kind", given->kind, "maze, template, csv-template or world");
+  options.word("name", given->name, "of a world: what it and its struct are called", false);
   MazeSettings maze;
   std::string keys;
   for (const Setting& setting : settings_of(maze)) {

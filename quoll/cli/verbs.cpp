@@ -7,6 +7,7 @@ constexpr Verb entries[] = {
     {"learn", "learn by experience, with the exact answer beside it", declare_learn},
     {"solve", "the exact answer, with proof", declare_solve},
     {"evaluate", "what a policy is worth, state by state", declare_evaluate},
+    {"play", "one episode, step by step, by a policy, given actions or by hand", declare_play},
     {"verify", "what a saved run can lose at most, checked independently", declare_verify},
     {"check", "what is wrong or suspicious in a world", declare_check},
     {"new", "a world file to begin with: a maze or a template", declare_new},

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "quoll/base/random.hpp"
+#include "quoll/env/grid_looks.hpp"
 #include "quoll/env/table.hpp"
 
 namespace quoll {
@@ -59,28 +60,32 @@ class ModelEnvironment : public Environment, private Inspector {
  private:
   Tree state(std::uint32_t, State at) const override { return Tree(mdp_->state_name(at)); }
   Result<void> set(std::uint32_t lane, const Tree& state, State& at) override {
+    std::string nearest;
     if (const auto* const name = std::get_if<std::string>(&state.value)) {
       if (const std::optional<State> found = mdp_->find_state(*name)) {
         at = *found;
         elapsed_[lane] = 0;
         return {};
       }
+      nearest = mdp_->arrays().state_names.nearest(*name);
     } else if (const auto* const index = std::get_if<std::int64_t>(&state.value);
                index && *index >= 0 && static_cast<std::uint64_t>(*index) < mdp_->states()) {
       at = static_cast<State>(*index);
       elapsed_[lane] = 0;
       return {};
     }
-    return Error{"", 0, 0, "the name or the number of a state expected", ""};
+    return Error{"", 0, 0, "the name or the number of a state expected", nearest};
   }
   Tree observation(std::uint32_t, State at) const override {
     return looks_->observation ? looks_->observation(at) : Tree(std::int64_t{at});
   }
   std::string text(std::uint32_t, State at) const override {
-    return looks_->text ? looks_->text(at) : std::string();
+    if (looks_->text) return looks_->text(at);
+    return mdp_->layout() ? grid_state_text(*mdp_, at) : mdp_->state_name(at) + "\n";
   }
   Drawing drawing(std::uint32_t, State at) const override {
-    return looks_->drawing ? looks_->drawing(at) : Drawing();
+    if (looks_->drawing) return looks_->drawing(at);
+    return mdp_->layout() ? grid_state_drawing(*mdp_, at) : Drawing();
   }
 
   std::shared_ptr<const Looks> looks_;

@@ -75,8 +75,8 @@ bool names_a_file(const std::string& text) {
 
 }  // namespace
 
-bool is_built_in(std::string_view name) {
-  return find_entry(name).entry != nullptr;
+const WorldEntry* find_world_entry(std::string_view name) {
+  return find_entry(name).entry;
 }
 
 Result<World> find_world(const std::string& name_or_file, const Parameters& parameters) {

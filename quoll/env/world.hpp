@@ -40,7 +40,8 @@ struct World {
   std::function<std::unique_ptr<Environment>(Lanes)> make;
 };
 
-/// How the states of a model look to people; each may be empty.
+/// How the states of a model look to people. Without text and drawing: the grid with the agent in
+/// it where the model has a layout, else the state's name and no picture.
 struct Looks {
   std::function<std::string(State)> text;
   std::function<Drawing(State)> drawing;
@@ -56,9 +57,6 @@ World to_world(std::string name, Mdp mdp, Looks looks = {}, std::uint64_t episod
 /// A built-in name or alias, or a file of a known format, with `--with key=value` parameters.
 Result<World> find_world(const std::string& name_or_file, const Parameters& parameters = {});
 
-/// Whether find_world() takes this as the name or alias of a built-in world.
-bool is_built_in(std::string_view name);
-
 /// One line of `list worlds`. An alias may set parameters: "FrozenLake8x8-v1:map=8x8".
 struct WorldEntry {
   std::string_view name;
@@ -69,5 +67,8 @@ struct WorldEntry {
   std::vector<ParameterText> (*parameters)();
 };
 std::span<const WorldEntry* const> worlds();
+
+/// The built-in world that this is the name or an alias of, or nullptr.
+const WorldEntry* find_world_entry(std::string_view name);
 
 }  // namespace quoll
