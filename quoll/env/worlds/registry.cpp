@@ -8,13 +8,22 @@ namespace quoll {
 extern const WorldEntry adventure_world;
 extern const WorldEntry bicycle_world;
 extern const WorldEntry blackjack_world;
+extern const WorldEntry chain_world;
 extern const WorldEntry cliff_walking_world;
+extern const WorldEntry combination_lock_world;
 extern const WorldEntry deep_sea_world;
 extern const WorldEntry dyna_maze_world;
+extern const WorldEntry forest_world;
 extern const WorldEntry frozen_lake_world;
+extern const WorldEntry gamblers_problem_world;
+extern const WorldEntry garnet_world;
+extern const WorldEntry inventory_world;
+extern const WorldEntry jacks_car_rental_world;
 extern const WorldEntry krk_world;
 extern const WorldEntry maze_world;
 extern const WorldEntry puddle_world;
+extern const WorldEntry racetrack_world;
+extern const WorldEntry river_swim_world;
 extern const WorldEntry taxi_world;
 extern const WorldEntry windy_grid_world;
 
@@ -24,13 +33,22 @@ constexpr const WorldEntry* entries[] = {
     &adventure_world,
     &bicycle_world,
     &blackjack_world,
+    &chain_world,
     &cliff_walking_world,
+    &combination_lock_world,
     &deep_sea_world,
     &dyna_maze_world,
+    &forest_world,
     &frozen_lake_world,
+    &gamblers_problem_world,
+    &garnet_world,
+    &inventory_world,
+    &jacks_car_rental_world,
     &krk_world,
     &maze_world,
     &puddle_world,
+    &racetrack_world,
+    &river_swim_world,
     &taxi_world,
     &windy_grid_world,
 };

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 
 #include "quoll/env/world.hpp"
@@ -21,7 +22,9 @@ struct Led {
   double reward;
 };
 inline Led led(const Mdp& mdp, const std::string& state, const std::string& action) {
-  const State s = *mdp.find_state(state);
+  const std::optional<State> found = mdp.find_state(state);
+  const State s = found.value_or(0);
+  EXPECT_TRUE(found) << state;
   for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
     if (mdp.action_name(c) != action) continue;
     EXPECT_EQ(mdp.outcome_end(c) - mdp.outcome_begin(c), 1u) << state << " " << action;
@@ -34,7 +37,9 @@ inline Led led(const Mdp& mdp, const std::string& state, const std::string& acti
 /// Probability that an action leads to a state.
 inline double probability(const Mdp& mdp, const std::string& state, const std::string& action,
                           const std::string& to) {
-  const State s = *mdp.find_state(state);
+  const std::optional<State> found = mdp.find_state(state);
+  const State s = found.value_or(0);
+  EXPECT_TRUE(found) << state;
   double sum = 0.0;
   for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
     if (mdp.action_name(c) != action) continue;
