@@ -35,4 +35,26 @@ class TablePolicy final : public Policy {
   std::vector<Action> actions_;
 };
 
+/// Each action of the state with equal probability; one draw from the lane's stream.
+class UniformPolicy final : public Policy {
+ public:
+  /// `counts` = number of actions per state; states beyond it, and worlds without numbered states,
+  /// have `otherwise` actions.
+  explicit UniformPolicy(std::vector<Action> counts, Action otherwise = 0)
+      : counts_(std::move(counts)), otherwise_(otherwise) {}
+
+  void act(const Experience& now, std::span<Action> out, std::span<Rng> streams) const override {
+    for (std::size_t lane = 0; lane < out.size(); ++lane) {
+      const State s = now.state[lane];
+      const Action count = s < counts_.size() ? counts_[s] : otherwise_;
+      const std::uint64_t bits = streams[lane].next();
+      out[lane] = count == 0 ? no_action : scale(static_cast<std::uint32_t>(bits >> 32), count);
+    }
+  }
+
+ private:
+  std::vector<Action> counts_;
+  Action otherwise_;
+};
+
 }  // namespace quoll

@@ -11,6 +11,7 @@
 #include "quoll/base/file.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
+#include "quoll/cli/evaluate_sample.hpp"
 #include "quoll/cli/exact.hpp"
 #include "quoll/cli/policy_file.hpp"
 #include "quoll/cli/verbs.hpp"
@@ -46,12 +47,6 @@ struct EvaluateOptions {
   std::string policy;
 };
 
-/// Played episodes and an interval for their mean.
-struct Sampled {
-  Played played;
-  Statistics statistics;
-};
-
 struct Evaluated {
   const World& world;
   const Mdp& mdp;
@@ -76,51 +71,11 @@ struct Evaluated {
   }
 };
 
-/// Plays in blocks with random numbers of their own; the interval is the bootstrap over blocks.
-Sampled sample(const Evaluated& of, const EvaluationSettings& asked) {
-  std::uint64_t cut = asked.episode_steps > 0 ? asked.episode_steps : of.world.episode_steps;
-  if (cut == 0) cut = std::max<std::uint64_t>(2000, of.mdp.states());
-  const TablePolicy policy(of.actions);
-  const std::uint64_t blocks = std::min<std::uint64_t>(asked.episodes, 1000);
-  Sampled sampled;
-  std::vector<double> means;
-  for (std::uint64_t i = 0; i < blocks; ++i) {
-    const std::uint64_t count = asked.episodes / blocks + (i < asked.episodes % blocks ? 1 : 0);
-    const Played part = play(of.world, policy, count, asked.seed + i, of.discount, cut);
-    const auto weight = static_cast<double>(count);
-    sampled.played.episodes += count;
-    sampled.played.mean += weight * part.mean;
-    sampled.played.mean_discounted += weight * part.mean_discounted;
-    sampled.played.mean_steps += weight * part.mean_steps;
-    sampled.played.ended += weight * part.ended;
-    means.push_back(part.mean);
-  }
-  const auto all = static_cast<double>(asked.episodes);
-  sampled.played.mean /= all;
-  sampled.played.mean_discounted /= all;
-  sampled.played.mean_steps /= all;
-  sampled.played.ended /= all;
-  sampled.statistics = statistics(means);
-  return sampled;
-}
-
-void write_sampled(JsonWriter& json, const std::optional<Sampled>& sampled) {
-  if (!sampled) {
-    json.null_member("evaluation");
-    return;
-  }
-  json.key("evaluation").begin_object();
-  json.member("episodes", sampled->played.episodes).member("mean", sampled->played.mean);
-  for (const auto& [key, bound] : {std::pair{"lower", sampled->statistics.lower},
-                                   std::pair{"upper", sampled->statistics.upper}}) {
-    if (bound)
-      json.member(key, *bound);
-    else
-      json.null_member(key);
-  }
-  json.member("mean_discounted", sampled->played.mean_discounted);
-  json.member("mean_steps", sampled->played.mean_steps);
-  json.member("ended", sampled->played.ended).end_object();
+/// The steps after which an episode is cut off, if nobody says.
+std::uint64_t cut_of(const World& world, const EvaluationSettings& asked) {
+  if (asked.episode_steps > 0) return asked.episode_steps;
+  return world.episode_steps > 0 ? world.episode_steps
+                                 : std::max<std::uint64_t>(2000, world.traits.states);
 }
 
 std::string evaluate_json(const Evaluated& of, bool all) {
@@ -213,17 +168,7 @@ std::string evaluate_text(const Evaluated& of, bool all) {
   } else if (!of.value.converged) {
     text += missed(of);
   }
-  if (!of.sampled) return text;
-  const Played& played = of.sampled->played;
-  text += fmt::format("{} episodes: mean return {}", grouped(played.episodes),
-                      number_text(played.mean));
-  if (of.sampled->statistics.lower) {
-    text += fmt::format(" (95 % interval [{}, {}])", number_text(*of.sampled->statistics.lower),
-                        number_text(*of.sampled->statistics.upper));
-  }
-  return text + fmt::format(", discounted {}, {:.0f} % reach an end, {} steps on average\n",
-                            number_text(played.mean_discounted), 100 * played.ended,
-                            number_text(played.mean_steps));
+  return of.sampled ? text + sampled_text(*of.sampled) : text;
 }
 
 Result<Evaluated> evaluated(const EvaluateOptions& options, const EvaluationSettings& asked,
@@ -235,9 +180,6 @@ Result<Evaluated> evaluated(const EvaluateOptions& options, const EvaluationSett
     Result<std::vector<Action>> actions = read_policy(options.policy, world);
     if (!actions) return actions.error();
     of.actions = std::move(*actions);
-  } else if (asked.episodes > 0) {
-    return Error{"--episodes", 0, 0,
-                 "the uniform policy is evaluated exactly; episodes need a policy from a file", ""};
   }
   const auto begun = std::chrono::steady_clock::now();
   ProgressDisplay display(options.output.quiet, "sweeps");
@@ -264,8 +206,43 @@ Result<Evaluated> evaluated(const EvaluateOptions& options, const EvaluationSett
   of.tolerance = wanted_width(asked.tolerance, given, 1e-11, of.value.lower, of.value.upper);
   of.value.converged = of.value.gap <= of.tolerance;
   of.seconds = seconds();
-  if (asked.episodes > 0) of.sampled = sample(of, asked);
+  if (asked.episodes > 0) {
+    const Plays plays{asked.episodes, asked.seed, of.discount, cut_of(world, asked)};
+    of.sampled = of.actions.empty() ? sample(world, uniform_policy_of(world), plays)
+                                    : sample(world, TablePolicy(of.actions), plays);
+  }
   return of;
+}
+
+/// A world without a model: what the policy earned in episodes.
+Exit evaluate_by_playing(const EvaluateOptions& options, const EvaluationSettings& asked,
+                         const World& world) {
+  constexpr std::uint64_t standard_episodes = 100;
+  std::vector<Action> actions;
+  if (options.policy != "uniform") {
+    Result<std::vector<Action>> read = read_policy(options.policy, world);
+    if (!read) return fail(read.error());
+    actions = std::move(*read);
+  }
+  const Plays plays{asked.episodes > 0 ? asked.episodes : standard_episodes, asked.seed,
+                    asked.discount > 0.0 ? asked.discount : world.discount, cut_of(world, asked)};
+  const Sampled sampled = actions.empty() ? sample(world, uniform_policy_of(world), plays)
+                                          : sample(world, TablePolicy(std::move(actions)), plays);
+  JsonWriter json(JsonStyle::pretty);
+  json.begin_object().member("world", world.name).member("policy", options.policy);
+  json.null_member("states").member("discount", plays.discount).null_member("start");
+  json.null_member("values");
+  write_sampled(json, sampled);
+  json.end_object();
+  if (!options.output.file.empty()) {
+    const Result<void> written =
+        write_output(options.output.file, json.text() + "\n", {options.world.name, options.policy});
+    if (!written) return fail(written.error());
+  }
+  const std::string text = fmt::format("evaluate {}   policy {}, no model: played, discount {}\n\n",
+                                       world.name, options.policy, shortest(plays.discount)) +
+                           sampled_text(sampled);
+  return print(options.output.json ? json.text() + "\n" : text) ? done : user_error;
 }
 
 Exit evaluate(const EvaluateOptions& options) {
@@ -278,10 +255,8 @@ Exit evaluate(const EvaluateOptions& options) {
     return fail(
         {"--policy", 0, 0, "uniform or a file that ends in .csv, .json or .quoll expected", ""});
   }
-  if (!world->mdp) {
-    return fail({"", 0, 0, "the model of " + world->name + " is not known", ""});
-  }
   catch_interrupts();
+  if (!world->mdp) return evaluate_by_playing(options, asked, *world);
   const Result<Evaluated> of = evaluated(options, asked, *world);
   if (!of) return fail(of.error());
   if (!options.output.file.empty()) {

@@ -184,10 +184,6 @@ Result<std::unique_ptr<Chooser>> chooser(const PlayOptions& options, const World
     return std::unique_ptr<Chooser>(std::make_unique<UniformActions>(seed));
   }
   if (options.policy.empty()) return std::unique_ptr<Chooser>(std::make_unique<HandActions>());
-  if (!world.mdp) {
-    return Error{"--policy", 0, 0,
-                 "uniform expected: the states of " + world.name + " are not in a table", ""};
-  }
   Result<std::vector<Action>> actions = read_policy(options.policy, world);
   if (!actions) return actions.error();
   return std::unique_ptr<Chooser>(
@@ -287,7 +283,9 @@ class Session {
     if (options_.json) {
       text = json_line(now);
     } else {
-      text = fmt::format("t {:<4} {}", now.t, state_text(now));
+      const bool seen = options_.render == "text";
+      const bool named = std::holds_alternative<std::string>(now.state.value);
+      text = fmt::format("t {:<4} {}", now.t, named || !seen ? state_text(now) : "");
       if (now.action) {
         text += fmt::format("   {}  reward {}  return {}", now.action_name, number_text(now.reward),
                             number_text(now.total));

@@ -169,7 +169,11 @@ Result<std::vector<Action>> read_json_policy(const std::string& path, const Mdp&
 Result<std::vector<Action>> read_run_policy(const std::string& path, const World& world) {
   const Result<Run> run = Run::load(path, false);
   if (!run) return run.error();
-  if (!run->world().mdp || digest(*run->world().mdp) != digest(*world.mdp)) {
+  const bool same = run->world().mdp && world.mdp
+                        ? digest(*run->world().mdp) == digest(*world.mdp)
+                        : !run->world().mdp && !world.mdp && run->world().name == world.name &&
+                              run->world().traits.states == world.traits.states;
+  if (!same) {
     return Error{
         path, 0, 0,
         "this run learned " + run->source().name + ", which is not the model of " + world.name, ""};
@@ -184,6 +188,12 @@ Result<std::vector<Action>> read_run_policy(const std::string& path, const World
 Result<std::vector<Action>> read_policy(const std::string& path, const World& world) {
   const std::string file = run_file(path);
   if (file.ends_with(".quoll")) return read_run_policy(file, world);
+  if (!world.mdp) {
+    return Error{
+        "--policy", 0, 0,
+        "uniform or a saved run (.quoll) expected: the model of " + world.name + " is not known",
+        ""};
+  }
   if (file.ends_with(".csv")) return read_csv_policy(file, *world.mdp);
   if (file.ends_with(".json")) return read_json_policy(file, *world.mdp);
   return Error{"--policy", 0, 0,

@@ -6,8 +6,16 @@
 
 namespace quoll {
 
-Played play(const World& world, const TablePolicy& policy, std::uint64_t episodes,
-            std::uint64_t seed, double discount, std::uint64_t episode_steps) {
+UniformPolicy uniform_policy_of(const World& world) {
+  const std::unique_ptr<Environment> environment = world.make({});
+  const Spaces spaces = environment->spaces();
+  std::vector<Action> counts(spaces.states);
+  for (State s = 0; s < spaces.states; ++s) counts[s] = environment->actions(s);
+  return UniformPolicy(std::move(counts), spaces.actions);
+}
+
+Played play(const World& world, const Policy& policy, std::uint64_t episodes, std::uint64_t seed,
+            double discount, std::uint64_t episode_steps) {
   Played played;
   const std::uint64_t streams_seed = stream(seed, "evaluation").next();
   const std::unique_ptr<Environment> environment =
@@ -15,7 +23,9 @@ Played play(const World& world, const TablePolicy& policy, std::uint64_t episode
   State state = 0, next = 0;
   Action action = 0;
   Feedback feedback;
-  Experience now{{&state, 1}, {&action, 1}, {&feedback, 1}, {&next, 1}, {}, {}};
+  std::vector<float> observation(environment->spaces().observation), seen(observation.size());
+  Experience now{{&state, 1}, {&action, 1}, {&feedback, 1}, {&next, 1}, observation, seen};
+  Rng behaviour = stream(seed, "behaviour");
   const std::uint8_t restart = 1;
   std::uint64_t steps = 0, ended = 0;
   double sum = 0.0, discounted_sum = 0.0;
@@ -25,7 +35,7 @@ Played play(const World& world, const TablePolicy& policy, std::uint64_t episode
     bool over = world.mdp && world.mdp->terminal(state);
     ended += over;
     for (std::uint64_t t = 0; t < episode_steps && !over; ++t) {
-      action = policy(state);
+      policy.act(now, {&action, 1}, {&behaviour, 1});
       if (action == no_action) break;
       environment->step(now);
       ++steps;
@@ -33,6 +43,7 @@ Played play(const World& world, const TablePolicy& policy, std::uint64_t episode
       discounted_sum += factor * feedback.reward;
       factor *= discount;
       state = next;
+      observation = seen;
       over = feedback.terminated || feedback.truncated;
       ended += feedback.terminated;
     }

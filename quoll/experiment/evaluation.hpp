@@ -12,6 +12,9 @@
 
 namespace quoll {
 
+/// The uniform policy of a world, whatever it is made of.
+UniformPolicy uniform_policy_of(const World& world);
+
 /// What playing a policy gave.
 struct Played {
   std::uint64_t episodes = 0;
@@ -22,9 +25,10 @@ struct Played {
 };
 
 /// Plays `episodes` episodes from the world's own starts with the stream "evaluation" of `seed`,
-/// each cut off after `episode_steps`. A state the policy knows nothing about ends the episode.
-Played play(const World& world, const TablePolicy& policy, std::uint64_t episodes,
-            std::uint64_t seed, double discount, std::uint64_t episode_steps);
+/// each cut off after `episode_steps`. A state the policy knows nothing about ends the episode. A
+/// policy that draws takes the stream "behaviour".
+Played play(const World& world, const Policy& policy, std::uint64_t episodes, std::uint64_t seed,
+            double discount, std::uint64_t episode_steps);
 
 /// Over per-seed means: mean, median, interquartile mean, smallest, and the 95 % bootstrap interval
 /// of the mean (2,000 resamples, fixed stream). Agarwal et al. 2021 ("Deep RL at the edge of the

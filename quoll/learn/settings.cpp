@@ -235,7 +235,10 @@ Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
   setup.discount = settings.discount > 0.0 ? settings.discount : world.discount;
   if (world.traits.states == 0) {
     return Error{"", 0, 0,
-                 "the states of " + world.name + " cannot be listed: a table cannot learn it", ""};
+                 "the states of " + world.name +
+                     " cannot be listed: a table cannot learn it (worlds of observed numbers take "
+                     "--with bins=...)",
+                 ""};
   }
   const auto exploring = exploration(settings, world);
   if (!exploring) return exploring.error();

@@ -4,14 +4,25 @@
 set -eu
 build=${1:?usage: tests/golden/regenerate.sh BUILD}
 here=$(cd "$(dirname "$0")" && pwd)
-for world in $("$build/bin/quoll" list worlds --json | sed -n 's/^ *"name": "\(.*\)",*$/\1/p'); do
+for world in $("$build/bin/quoll" list worlds | sed -n '2,/^quoll/s/^\([a-z0-9-]*\)  .*/\1/p'); do
   file=$here/$world.case
-  if [ ! -e "$file" ]; then
-    sed "s/adventure/$world/g" "$here/adventure.case" | grep '^[#$]' | sed 's/^\$/\n$/' > "$file"
-  fi
+  [ -e "$file" ] && continue
+  {
+    echo "# The world $world: what it offers, an episode of the uniform policy, how it looks."
+    echo "\$ quoll list worlds $world"
+    echo
+    echo "\$ quoll play $world --policy uniform --seed 1 --steps 6 --json"
+    echo
+    echo "\$ quoll play $world --policy uniform --seed 1 --steps 2 --render text"
+    if "$build/bin/quoll" list worlds "$world" | grep -q '^seeding '; then
+      echo
+      echo "# The same seed as Gymnasium's."
+      echo "\$ quoll play $world --with seeding=gymnasium --policy uniform --seed 1 --steps 6 --json"
+    fi
+  } >"$file"
 done
 runner=$(find "$build" -name case_runner -type f | head -n 1)
 for file in "$here"/*.case; do
-  "$runner" --update "$build/bin/quoll" "$file" > /dev/null || true
+  "$runner" --update "$build/bin/quoll" "$file" >/dev/null || true
   "$runner" "$build/bin/quoll" "$file"
 done

@@ -39,8 +39,8 @@ struct BlackjackSettings {
   Seeding seeding = Seeding::quoll;
 
   void describe(Describer& describe) {
-    describe.choice("rules", rules, rules_names, "What a natural is worth.");
-    describe.choice("seeding", seeding, seeding_names, "Whose random numbers a seed gives.");
+    describe.choice("rules", rules, rules_names, "what a natural is worth");
+    describe.choice("seeding", seeding, seeding_names, "whose random numbers a seed gives");
   }
 };
 

@@ -24,8 +24,8 @@ struct CliffSettings {
   Seeding seeding = Seeding::quoll;
 
   void describe(Describer& describe) {
-    describe("slippery", slippery, "Whether a move may slip to a side.");
-    describe.choice("seeding", seeding, seeding_names, "Whose random numbers a seed gives.");
+    describe("slippery", slippery, "whether a move may slip to a side");
+    describe.choice("seeding", seeding, seeding_names, "whose random numbers a seed gives");
   }
 };
 

@@ -34,15 +34,15 @@ struct LakeSettings {
 
   void describe(Describer& describe) {
     describe("map", map, "4x4, 8x8, generated, or a file with a line of letters S F H G per row.");
-    describe("slippery", slippery, "Whether a move may slip to a side.");
-    describe("success_rate", success_rate, 0.0, 1.0, "Probability that a move does not slip.");
-    describe("goal_reward", goal_reward, -1e9, 1e9, "Reward for reaching the goal.");
-    describe("hole_reward", hole_reward, -1e9, 1e9, "Reward for falling into a hole.");
-    describe("frozen_reward", frozen_reward, -1e9, 1e9, "Reward for every other step.");
-    describe("size", size, 2, 1000, "Rows and columns of a generated map.");
-    describe("p", p, 0.0, 1.0, "Probability that a cell of a generated map is frozen.");
-    describe("seed", seed, "Seed of a generated map.");
-    describe.choice("seeding", seeding, seeding_names, "Whose random numbers a seed gives.");
+    describe("slippery", slippery, "whether a move may slip to a side");
+    describe("success_rate", success_rate, 0.0, 1.0, "probability that a move does not slip");
+    describe("goal_reward", goal_reward, -1e9, 1e9, "reward for reaching the goal");
+    describe("hole_reward", hole_reward, -1e9, 1e9, "reward for falling into a hole");
+    describe("frozen_reward", frozen_reward, -1e9, 1e9, "reward for every other step");
+    describe("size", size, 2, 1000, "rows and columns of a generated map");
+    describe("p", p, 0.0, 1.0, "probability that a cell of a generated map is frozen");
+    describe("seed", seed, "seed of a generated map");
+    describe.choice("seeding", seeding, seeding_names, "whose random numbers a seed gives");
   }
 };
 

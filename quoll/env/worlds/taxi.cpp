@@ -38,13 +38,13 @@ struct TaxiSettings {
   Seeding seeding = Seeding::quoll;
 
   void describe(Describer& describe) {
-    describe("rainy", rainy, "Whether a move may be pushed to a side.");
-    describe("fickle", fickle, "Whether the passenger may change his destination once.");
+    describe("rainy", rainy, "whether a move may be pushed to a side");
+    describe("fickle", fickle, "whether the passenger may change his destination once");
     describe("rainy_probability", rainy_probability, 0.0, 1.0,
-             "With rainy: probability that a move goes where it should.");
+             "with rainy: probability that a move goes where it should");
     describe("fickle_probability", fickle_probability, 0.0, 1.0,
-             "With fickle: probability that the passenger changes his destination.");
-    describe.choice("seeding", seeding, seeding_names, "Whose random numbers a seed gives.");
+             "with fickle: probability that the passenger changes his destination");
+    describe.choice("seeding", seeding, seeding_names, "whose random numbers a seed gives");
   }
 };
 
