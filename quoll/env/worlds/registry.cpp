@@ -5,9 +5,11 @@
 
 namespace quoll {
 
+extern const WorldEntry acrobot_world;
 extern const WorldEntry adventure_world;
 extern const WorldEntry bicycle_world;
 extern const WorldEntry blackjack_world;
+extern const WorldEntry cartpole_world;
 extern const WorldEntry chain_world;
 extern const WorldEntry cliff_walking_world;
 extern const WorldEntry combination_lock_world;
@@ -21,6 +23,8 @@ extern const WorldEntry inventory_world;
 extern const WorldEntry jacks_car_rental_world;
 extern const WorldEntry krk_world;
 extern const WorldEntry maze_world;
+extern const WorldEntry mountain_car_world;
+extern const WorldEntry pendulum_world;
 extern const WorldEntry puddle_world;
 extern const WorldEntry racetrack_world;
 extern const WorldEntry river_swim_world;
@@ -30,9 +34,11 @@ extern const WorldEntry windy_grid_world;
 namespace {
 
 constexpr const WorldEntry* entries[] = {
+    &acrobot_world,
     &adventure_world,
     &bicycle_world,
     &blackjack_world,
+    &cartpole_world,
     &chain_world,
     &cliff_walking_world,
     &combination_lock_world,
@@ -46,6 +52,8 @@ constexpr const WorldEntry* entries[] = {
     &jacks_car_rental_world,
     &krk_world,
     &maze_world,
+    &mountain_car_world,
+    &pendulum_world,
     &puddle_world,
     &racetrack_world,
     &river_swim_world,
