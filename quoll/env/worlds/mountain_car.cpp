@@ -73,7 +73,7 @@ struct MountainCar {
   // 0.04 a letter across; 0.15 a line up.
   std::string text(const Position& at) const {
     constexpr int width = 46, rows = 8;
-    const auto row = [](double position) { return rows - 1.0 - height(position) / 0.15; };
+    const auto row = [](double position) { return 1.0 + (1.0 - height(position)) / 0.15; };
     const auto column = [](double position) { return (position - lowest) / 0.04; };
     Canvas page(width, rows);
     for (int i = 0; i < width; ++i) page.put(i, row(lowest + 0.04 * i), '.');
