@@ -76,7 +76,9 @@ void GivenSettings::declare_flags(Options& options, std::vector<Setting> setting
     std::string names = "--" + key;
     std::replace(names.begin(), names.end(), '_', '-');
     if (key == "discount") names += ",--gamma";
-    const std::string initial = text_of(setting);
+    const std::string standard = text_of(setting);
+    // A discount of 0 stands for the world's own, as its sentence says.
+    const std::string initial = key == "discount" && standard == "0" ? "" : standard;
     const std::string sentence =
         std::string(setting.sentence) + (initial.empty() ? "" : " [" + initial + "]");
     const auto take = [this, key](const std::string& text) { flags.emplace_back(key, text); };

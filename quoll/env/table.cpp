@@ -1,5 +1,7 @@
 #include "quoll/env/table.hpp"
 
+#include <algorithm>
+
 namespace quoll {
 namespace {
 
@@ -12,6 +14,17 @@ std::uint64_t threshold(double cumulative) {
   if (cumulative >= 1.0) return ~std::uint64_t{0};
   const double scaled = cumulative * 0x1p64;
   return scaled < 1.0 ? 0 : static_cast<std::uint64_t>(scaled) - 1;
+}
+
+// The largest number of outcomes of a choice, if it is at most `most` and padding at most doubles
+// the table; else 0.
+std::uint64_t common_width(const Mdp& mdp, std::uint64_t most) {
+  std::uint64_t width = 1;
+  for (std::uint64_t c = 0; c < mdp.choices(); ++c) {
+    width = std::max(width, mdp.outcome_end(c) - mdp.outcome_begin(c));
+  }
+  const bool small = mdp.choices() * width <= 4096;
+  return width <= most && (small || mdp.choices() * width <= 2 * mdp.outcomes()) ? width : 0;
 }
 
 }  // namespace
@@ -42,25 +55,33 @@ DeterministicTable<Value> deterministic_table(const Mdp& mdp, PairLayout layout)
 template <class Value>
 StochasticTable<Value> stochastic_table(const Mdp& mdp, PairLayout layout) {
   StochasticTable<Value> table;
-  table.begin.reserve(layout.pairs + 1);
-  table.moves.reserve(mdp.outcomes());
+  table.width = common_width(mdp, StochasticTable<Value>::short_row);
+  if (table.width > 0) {
+    table.moves.reserve(layout.pairs * table.width);
+  } else {
+    table.begin.reserve(layout.pairs + 1);
+    table.moves.reserve(mdp.outcomes());
+  }
   for (State s = 0; s < mdp.states(); ++s) {
     const Action row = layout.width == 0 ? mdp.actions(s) : layout.width;
     for (Action a = 0; a < row; ++a) {
-      table.begin.push_back(table.moves.size());
-      if (a >= mdp.actions(s)) continue;
-      const std::uint64_t choice = mdp.choice_begin(s) + a;
-      double cumulative = 0.0;
-      for (std::uint64_t o = mdp.outcome_begin(choice); o < mdp.outcome_end(choice); ++o) {
-        if (mdp.probability(o) <= 0.0) continue;
-        cumulative += mdp.probability(o);
-        table.moves.push_back({threshold(cumulative), packed(mdp, mdp.next(o)),
-                               static_cast<Value>(mdp.reward(choice, o))});
+      const std::size_t first = table.moves.size();
+      if (table.width == 0) table.begin.push_back(first);
+      if (a < mdp.actions(s)) {
+        const std::uint64_t choice = mdp.choice_begin(s) + a;
+        double cumulative = 0.0;
+        for (std::uint64_t o = mdp.outcome_begin(choice); o < mdp.outcome_end(choice); ++o) {
+          if (mdp.probability(o) <= 0.0) continue;
+          cumulative += mdp.probability(o);
+          table.moves.push_back({threshold(cumulative), packed(mdp, mdp.next(o)),
+                                 static_cast<Value>(mdp.reward(choice, o))});
+        }
+        table.moves.back().threshold = ~std::uint64_t{0};
       }
-      table.moves.back().threshold = ~std::uint64_t{0};
+      if (table.width > 0) table.moves.resize(first + table.width);
     }
   }
-  table.begin.push_back(table.moves.size());
+  if (table.width == 0) table.begin.push_back(table.moves.size());
   return table;
 }
 

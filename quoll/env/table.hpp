@@ -53,15 +53,27 @@ struct DeterministicTable {
   View view() const { return {moves.data()}; }
 };
 
+/// Rows of at most `short_row` moves everywhere are padded to one width, so that the outcome is
+/// found without a branch; else each row has its own length.
 template <class Value>
 struct StochasticTable {
-  std::vector<std::uint64_t> begin;  ///< per pair, and the end
+  static constexpr std::uint64_t short_row = 4;
+  std::uint64_t width = 0;           ///< of every row; 0 = see begin
+  std::vector<std::uint64_t> begin;  ///< per pair, and the end; empty when width > 0
   std::vector<ChanceMove<Value>> moves;
 
   struct View {
+    std::uint64_t width;
     const std::uint64_t* begin;
     const ChanceMove<Value>* moves;
     Landing<Value> step(std::uint64_t pair, std::uint64_t draw) const {
+      if (width > 0) {
+        const ChanceMove<Value>* const row = moves + pair * width;
+        std::uint64_t index = 0;
+        for (std::uint64_t i = 0; i + 1 < width; ++i) index += row[i].threshold < draw;
+        return {row[index].packed & ~end_bit, row[index].reward,
+                (row[index].packed & end_bit) != 0};
+      }
       const ChanceMove<Value>* move = moves + begin[pair];
       std::uint64_t count = begin[pair + 1] - begin[pair];
       while (count > 8) {  // halve long rows
@@ -77,7 +89,7 @@ struct StochasticTable {
       return {move->packed & ~end_bit, move->reward, (move->packed & end_bit) != 0};
     }
   };
-  View view() const { return {begin.data(), moves.data()}; }
+  View view() const { return {width, begin.data(), moves.data()}; }
 };
 
 /// First pair of each state (and the end) when rows are padded to `width`, or without padding when

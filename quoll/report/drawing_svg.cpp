@@ -25,7 +25,7 @@ std::string_view color(Ink ink) {
     case Ink::wall:
       return palette::wall;
     case Ink::floor:
-      return "#f4f6f8";
+      return "#e8ecf0";
     case Ink::reward:
       return palette::amber;
     case Ink::other:
