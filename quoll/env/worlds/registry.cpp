@@ -23,6 +23,11 @@ extern const WorldEntry inventory_world;
 extern const WorldEntry jacks_car_rental_world;
 extern const WorldEntry krk_world;
 extern const WorldEntry maze_world;
+extern const WorldEntry minatar_asterix_world;
+extern const WorldEntry minatar_breakout_world;
+extern const WorldEntry minatar_freeway_world;
+extern const WorldEntry minatar_seaquest_world;
+extern const WorldEntry minatar_space_invaders_world;
 extern const WorldEntry mountain_car_world;
 extern const WorldEntry pendulum_world;
 extern const WorldEntry puddle_world;
@@ -52,6 +57,11 @@ constexpr const WorldEntry* entries[] = {
     &jacks_car_rental_world,
     &krk_world,
     &maze_world,
+    &minatar_asterix_world,
+    &minatar_breakout_world,
+    &minatar_freeway_world,
+    &minatar_seaquest_world,
+    &minatar_space_invaders_world,
     &mountain_car_world,
     &pendulum_world,
     &puddle_world,
