@@ -39,7 +39,10 @@ struct Checked {
 Result<MdpArrays> open_arrays(const CheckOptions& options) {
   const std::string& name = options.world.name;
   const bool file = name.find('/') != std::string::npos || name.find('.') != std::string::npos;
-  if (file && !find_world_entry(name) && options.world.with.empty()) return read_model_arrays(name);
+  if (file && !find_world_entry(name)) {
+    const Result<WorldSource> source = options.world.source();
+    return source ? read_model_arrays(name, source->parameters) : source.error();
+  }
   const Result<World> world = options.world.open();
   if (!world) return world.error();
   if (!world->mdp) return Error{"", 0, 0, "the model of " + world->name + " is not known", ""};

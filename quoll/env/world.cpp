@@ -99,13 +99,11 @@ Result<World> find_world(const std::string& name_or_file, const Parameters& para
                      "'; a built-in name (see 'quoll list worlds') or a file expected",
                  nearest.best()};
   }
-  if (!parameters.empty()) {
-    return Error{"--with", 0, 0,
-                 "a world from a file takes no parameters, not '" + parameters[0].first + "'", ""};
-  }
-  Result<Mdp> mdp = read_model(name_or_file);
+  Result<Mdp> mdp = read_model(name_or_file, parameters);
   if (!mdp) return mdp.error();
-  return to_world(stem(name_or_file), std::move(*mdp));
+  World world = to_world(stem(name_or_file), std::move(*mdp));
+  world.parameters = parameters;
+  return world;
 }
 
 }  // namespace quoll

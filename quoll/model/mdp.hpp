@@ -28,6 +28,12 @@ struct Layout {
   std::vector<std::uint32_t> cell;  ///< per state: row * columns + column
   /// Per action *name* index: step to the right and down when that move succeeds, e.g. {1, 0}.
   std::vector<std::pair<int, int>> direction;
+  /// Where the picture lies in the world of a robot, if a map says so.
+  struct Frame {
+    double side = 1.0;                   ///< of a cell, in metres
+    double x = 0.0, y = 0.0, yaw = 0.0;  ///< pose of the lower left corner, in metres and radians
+  };
+  std::optional<Frame> frame{};
 };
 
 /// The arrays of an Mdp. Indices: a state's choices are choice_begin[s] .. choice_begin[s+1]; a

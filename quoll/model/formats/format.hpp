@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "quoll/base/parameters.hpp"
 #include "quoll/model/mdp.hpp"
 
 namespace quoll {
@@ -16,13 +17,18 @@ struct Format {
   std::string_view name;       ///< "toml"
   std::string_view extension;  ///< ".toml"
   std::string_view summary;
-  /// Parses the content of a file; `path` is for messages. Nullptr = cannot be read.
+  /// Parses the content of a file; `path` is for messages. Nullptr = cannot be read like this.
   Result<MdpArrays> (*read_arrays)(std::string_view content, const std::string& path);
   /// The model as text that read_arrays() takes back; nullptr = cannot be written.
   Result<std::string> (*write)(const Mdp& mdp);
   /// Reads a file piece by piece, for formats whose files may be larger than memory has room for
   /// twice; nullptr = read whole, then parsed.
   Result<MdpArrays> (*read_path)(const std::string& path);
+  /// Instead of read_arrays for formats that say too little alone, and what --with may set for
+  /// them; nullptr = no parameters.
+  Result<MdpArrays> (*read_with)(std::string_view content, const std::string& path,
+                                 const Parameters& given) = nullptr;
+  std::vector<ParameterText> (*parameters)() = nullptr;
 };
 
 /// All formats, a hand-written constant table.
@@ -32,11 +38,15 @@ std::span<const Format> formats();
 Result<const Format*> format_of(const std::string& path);
 
 /// Reads a model file by its extension. Errors as one line, file:line:column.
-Result<Mdp> read_model(const std::string& path);
+Result<Mdp> read_model(const std::string& path, const Parameters& given = {});
 /// The same before validation.
-Result<MdpArrays> read_model_arrays(const std::string& path);
-/// The model in `content`, whose format and name in messages `path` gives; opens no file.
-Result<Mdp> parse_model(std::string_view content, const std::string& path);
+Result<MdpArrays> read_model_arrays(const std::string& path, const Parameters& given = {});
+/// The model in `content`, whose format and name in messages `path` gives; opens no file but those
+/// that the content or the parameters name.
+Result<Mdp> parse_model(std::string_view content, const std::string& path,
+                        const Parameters& given = {});
+Result<MdpArrays> parse_model_arrays(std::string_view content, const std::string& path,
+                                     const Parameters& given = {});
 
 /// Refuses a model with a name that no reader would take back (quoll/model/letters.hpp).
 Result<void> proper_names(const Mdp& mdp);
@@ -50,5 +60,15 @@ Result<std::string> write_csv(const Mdp& mdp);
 
 Result<MdpArrays> read_grid(std::string_view content, const std::string& path);
 Result<std::string> write_grid(const Mdp& mdp);
+
+/// Maps for robots; settings and model: quoll/model/terrain.hpp.
+Result<MdpArrays> read_moving_ai(std::string_view content, const std::string& path,
+                                 const Parameters& given);
+std::vector<ParameterText> moving_ai_parameters();
+Result<MdpArrays> read_ros_map(std::string_view content, const std::string& path,
+                               const Parameters& given);
+Result<MdpArrays> read_pgm_map(std::string_view content, const std::string& path,
+                               const Parameters& given);
+std::vector<ParameterText> ros_map_parameters();
 
 }  // namespace quoll

@@ -10,17 +10,31 @@ namespace quoll {
 
 namespace {
 
-constexpr std::array<Format, 3> table{{
+constexpr std::array<Format, 6> table{{
     {"toml", ".toml", "named states and actions, written by hand", read_toml, write_toml, nullptr},
     {"csv", ".csv", "one outcome per row: state,action,next_state,probability,reward", read_csv,
      write_csv, read_csv_path},
     {"grid", ".txt", "a picture in letters: walls, start, goal, pits", read_grid, write_grid,
      nullptr},
+    {"moving-ai", ".map", "a map of the Moving AI benchmarks, with --with goal=x,y or scen=FILE",
+     nullptr, nullptr, nullptr, read_moving_ai, moving_ai_parameters},
+    {"ros-map", ".yaml", "an occupancy map of ROS, with --with goal=x,y in metres", nullptr,
+     nullptr, nullptr, read_ros_map, ros_map_parameters},
+    {"pgm", ".pgm", "the image of such a map alone, with --with goal=x,y in pixels", nullptr,
+     nullptr, nullptr, read_pgm_map, ros_map_parameters},
 }};
 
 Error placed(Error error, const std::string& path) {
   if (error.file.empty()) error.file = path;
   return error;
+}
+
+Result<void> takes(const Format& format, const Parameters& given) {
+  if (format.read_with != nullptr || given.empty()) return {};
+  return Error{"--with", 0, 0,
+               "a world from a " + std::string(format.extension) +
+                   " file takes no parameters, not '" + given[0].first + "'",
+               ""};
 }
 
 }  // namespace
@@ -49,9 +63,10 @@ Result<const Format*> format_of(const std::string& path) {
   return error;
 }
 
-Result<MdpArrays> read_model_arrays(const std::string& path) {
+Result<MdpArrays> read_model_arrays(const std::string& path, const Parameters& given) {
   const Result<const Format*> format = format_of(path);
   if (!format) return format.error();
+  if (const Result<void> fitting = takes(**format, given); !fitting) return fitting.error();
   if ((*format)->read_path != nullptr) {
     Result<MdpArrays> arrays = (*format)->read_path(path);
     if (!arrays) return placed(arrays.error(), path);
@@ -59,24 +74,33 @@ Result<MdpArrays> read_model_arrays(const std::string& path) {
   }
   const Result<std::string> content = read_file(path);
   if (!content) return placed(content.error(), path);
-  Result<MdpArrays> arrays = (*format)->read_arrays(*content, path);
+  return parse_model_arrays(*content, path, given);
+}
+
+Result<MdpArrays> parse_model_arrays(std::string_view content, const std::string& path,
+                                     const Parameters& given) {
+  const Result<const Format*> format = format_of(path);
+  if (!format) return format.error();
+  if (const Result<void> fitting = takes(**format, given); !fitting) return fitting.error();
+  Result<MdpArrays> arrays = (*format)->read_with != nullptr
+                                 ? (*format)->read_with(content, path, given)
+                                 : (*format)->read_arrays(content, path);
   if (!arrays) return placed(arrays.error(), path);
   return arrays;
 }
 
-Result<Mdp> read_model(const std::string& path) {
-  Result<MdpArrays> arrays = read_model_arrays(path);
+Result<Mdp> read_model(const std::string& path, const Parameters& given) {
+  Result<MdpArrays> arrays = read_model_arrays(path, given);
   if (!arrays) return arrays.error();
   Result<Mdp> mdp = Mdp::make(*std::move(arrays));
   if (!mdp) return placed(mdp.error(), path);
   return mdp;
 }
 
-Result<Mdp> parse_model(std::string_view content, const std::string& path) {
-  const Result<const Format*> format = format_of(path);
-  if (!format) return format.error();
-  Result<MdpArrays> arrays = (*format)->read_arrays(content, path);
-  if (!arrays) return placed(arrays.error(), path);
+Result<Mdp> parse_model(std::string_view content, const std::string& path,
+                        const Parameters& given) {
+  Result<MdpArrays> arrays = parse_model_arrays(content, path, given);
+  if (!arrays) return arrays.error();
   Result<Mdp> mdp = Mdp::make(*std::move(arrays));
   if (!mdp) return placed(mdp.error(), path);
   return mdp;

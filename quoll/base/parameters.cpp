@@ -1,4 +1,4 @@
-#include "quoll/env/parameters.hpp"
+#include "quoll/base/parameters.hpp"
 
 #include "quoll/base/text.hpp"
 
