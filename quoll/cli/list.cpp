@@ -35,8 +35,22 @@ struct WorldLine {
   std::uint32_t actions = 0;
   std::uint64_t limit = 0;
   double discount = 1.0;
-  bool libm = false;
+  std::string_view libm;  ///< when bits depend on the C library's functions
 };
+
+bool takes(const WorldEntry& entry, std::string_view parameter) {
+  for (const ParameterText& one : entry.parameters()) {
+    if (one.name == parameter) return true;
+  }
+  return false;
+}
+
+std::string_view when_libm(const WorldEntry& entry, const World& standard) {
+  if (standard.traits.libm) return "always";
+  if (!takes(entry, "seeding")) return "never";
+  const Result<World> gymnasium = entry.make({{"seeding", "gymnasium"}});
+  return gymnasium && gymnasium->traits.libm ? "with seeding=gymnasium" : "never";
+}
 
 std::string offers(const Spaces& spaces) {
   if (spaces.states > 0) return grouped(spaces.states) + " states";
@@ -55,7 +69,7 @@ std::vector<WorldLine> world_lines() {
     if (!world) continue;
     const Spaces spaces = world->make({})->spaces();
     lines.push_back({entry, offers(spaces), spaces.actions, world->episode_steps, world->discount,
-                     world->traits.libm});
+                     when_libm(*entry, *world)});
   }
   return lines;
 }
@@ -68,19 +82,17 @@ std::string worlds_text() {
                    {"limit", Align::right},
                    {"discount", Align::right},
                    {""}});
-  bool gymnasium = false;
+  std::string libm;
   for (const WorldLine& line : world_lines()) {
-    for (const ParameterText& parameter : line.entry->parameters()) {
-      gymnasium = gymnasium || parameter.name == "seeding";
-    }
+    if (line.libm != "never") libm += (libm.empty() ? "" : ", ") + std::string(line.entry->name);
     table.row({std::string(line.entry->name), line.offers, std::to_string(line.actions),
                line.limit == 0 ? "-" : grouped(line.limit), shortest(line.discount),
-               std::string(line.entry->summary) + (line.libm ? " (libm)" : "")});
+               std::string(line.entry->summary)});
   }
   return table.text() + "quoll list worlds NAME tells a world's parameters, aliases and source\n" +
-         (gymnasium ? "with seeding=gymnasium, and where it says (libm), bits depend on the C "
-                      "library's sin and cos\n"
-                    : "");
+         (libm.empty() ? ""
+                       : "with seeding=gymnasium the bits of " + libm +
+                             " depend on the C library's sin and cos\n");
 }
 
 void write_parameters(JsonWriter& json, const WorldEntry& entry) {

@@ -285,7 +285,8 @@ class Session {
     } else {
       const bool seen = options_.render == "text";
       const bool named = std::holds_alternative<std::string>(now.state.value);
-      text = fmt::format("t {:<4} {}", now.t, named || !seen ? state_text(now) : "");
+      text = named || !seen ? fmt::format("t {:<4} {}", now.t, state_text(now))
+                            : fmt::format("t {}", now.t);
       if (now.action) {
         text += fmt::format("   {}  reward {}  return {}", now.action_name, number_text(now.reward),
                             number_text(now.total));
