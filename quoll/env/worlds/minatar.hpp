@@ -44,10 +44,9 @@ struct Settings {
   bool minimal = false;
 
   void describe(Describer& describe) {
-    describe("sticky", sticky, 0.0, 1.0, "Probability that the previous action is repeated.");
-    describe("ramping", ramping,
-             "The game grows harder with time (Breakout and Freeway never do).");
-    describe("minimal", minimal, "Offer only the actions that this game has a use for.");
+    describe("sticky", sticky, 0.0, 1.0, "probability that the previous action is repeated");
+    describe("ramping", ramping, "the game grows harder (Breakout and Freeway never do)");
+    describe("minimal", minimal, "offer only the actions that this game has a use for");
   }
 };
 
