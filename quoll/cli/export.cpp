@@ -1,4 +1,4 @@
-// quoll export RUN --to c|json|csv: the policy of a saved run, for other programs.
+// quoll export RUN --to c|json|csv|moves: the policy of a saved run, for other programs.
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@
 #include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/policy_file.hpp"
 #include "quoll/cli/verbs.hpp"
+#include "quoll/report/export_map.hpp"
 #include "quoll/report/export_policy.hpp"
 
 namespace quoll::cli {
@@ -23,11 +24,20 @@ struct ExportOptions {
 };
 
 struct Target {
-  std::string_view name, extension;
-  std::string (*write)(const PolicyExport& policy);
+  std::string_view name, extension;  // none = only by name
+  Result<std::string> (*write)(const PolicyExport& policy);
 };
-constexpr std::array<Target, 3> targets{
-    {{"c", ".h", policy_c}, {"json", ".json", policy_json}, {"csv", ".csv", policy_csv}}};
+template <std::string (*write)(const PolicyExport&)>
+Result<std::string> always(const PolicyExport& policy) {
+  return write(policy);
+}
+Result<std::string> moves(const PolicyExport& policy) {
+  return moves_csv({policy.mdp, policy.policy, {}});
+}
+constexpr std::array<Target, 4> targets{{{"c", ".h", always<policy_c>},
+                                         {"json", ".json", always<policy_json>},
+                                         {"csv", ".csv", always<policy_csv>},
+                                         {"moves", "", moves}}};
 
 /// By --to, else by the ending of -o.
 Result<const Target*> find_target(const ExportOptions& options) {
@@ -35,13 +45,17 @@ Result<const Target*> find_target(const ExportOptions& options) {
   for (const Target& target : targets) {
     nearest.offer(target.name);
     if (options.to == target.name) return &target;
-    if (options.to.empty() && options.file.ends_with(target.extension)) return &target;
+    if (options.to.empty() && !target.extension.empty() &&
+        options.file.ends_with(target.extension)) {
+      return &target;
+    }
   }
   if (options.to.empty()) {
     return Error{"--to", 0, 0, "c, json or csv expected, or -o with a name in .h, .json or .csv",
                  ""};
   }
-  return Error{"--to", 0, 0, "c, json or csv expected, not '" + options.to + "'", nearest.best()};
+  return Error{"--to", 0, 0, "c, json, csv or moves expected, not '" + options.to + "'",
+               nearest.best()};
 }
 
 /// What the head of the file says about the policy.
@@ -97,7 +111,9 @@ Result<Exported> exported(const ExportOptions& options, const Target& target) {
     policy.origin = {"No certificate: " + message(judged.error())};
   }
   policy.policy = actions;
-  return Exported{target.write(policy), run->source().name};
+  Result<std::string> text = target.write(policy);
+  if (!text) return text.error();
+  return Exported{std::move(*text), run->source().name};
 }
 
 Exit export_policy(const ExportOptions& options) {
@@ -117,7 +133,8 @@ Exit export_policy(const ExportOptions& options) {
 void declare_export(Options& options) {
   auto given = std::make_shared<ExportOptions>();
   options.word("run", given->run, "a saved run: run.quoll, or the folder of a run");
-  options.option("--to", &given->to, "c | json | csv", "what to write; without: by the name of -o");
+  options.option("--to", &given->to, "c | json | csv | moves",
+                 "what to write; moves: x,y,state,move of a grid; without: by the name of -o");
   options.option("-o,--output", &given->file, "FILE", "the file to write; without: on stdout");
   options.option("--name", &given->name, "NAME",
                  "what the C names begin with; without: the world's name");

@@ -3,6 +3,7 @@
 #include "quoll/solve/solver.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -14,6 +15,7 @@
 #include "quoll/cli/exact.hpp"
 #include "quoll/cli/learn_report.hpp"
 #include "quoll/cli/verbs.hpp"
+#include "quoll/report/export_map.hpp"
 #include "quoll/report/grid_text.hpp"
 #include "quoll/report/progress.hpp"
 #include "quoll/solve/methods.hpp"
@@ -210,6 +212,38 @@ Result<Solution> run_solver(const SolveOptions& options, const ExactSettings& as
   return solution;
 }
 
+/// The cost to go as an image: FILE.yaml and FILE.pgm. An image that stands alone there is
+/// somebody's map.
+Result<void> write_cost_image(const MapExport& map, const std::string& file,
+                              const std::string& world) {
+  const std::string stem = file.substr(0, file.size() - std::string_view("yaml").size());
+  const std::string image = stem + "pgm";
+  const Result<CostImage> written = cost_image(map, image.substr(image.find_last_of('/') + 1));
+  if (!written) return written.error();
+  if (access(image.c_str(), F_OK) == 0 && access(file.c_str(), F_OK) != 0) {
+    return Error{image, 0, 0, "exists already without a " + file + ": give another name", ""};
+  }
+  const Result<void> first = write_output(file, written->yaml, {world});
+  return first ? write_output(image, written->pgm, {world}) : first;
+}
+
+/// What -o asks for, by its ending: .csv moves of a map, .yaml an image of one, else JSON.
+Result<void> write_answer(const Solved& solved, const std::string& file, const std::string& world) {
+  const bool rows = file.ends_with(".csv");
+  if (!rows && !file.ends_with(".yaml")) {
+    return write_output(file, solve_json(solved, true), {world});
+  }
+  const Solution& solution = solved.solution;
+  std::vector<double> cost = solved.asked.minimise ? solution.upper : solution.lower;
+  if (!solved.asked.minimise) {
+    for (double& c : cost) c = -c;
+  }
+  const MapExport map{&solved.mdp, solution.policy, cost};
+  if (!rows) return write_cost_image(map, file, world);
+  const Result<std::string> text = moves_csv(map);
+  return text ? write_output(file, *text, {world}) : text.error();
+}
+
 Exit solve(const SolveOptions& options) {
   ExactSettings asked;
   const Result<void> applied = options.given.apply(settings_of(asked));
@@ -229,8 +263,7 @@ Exit solve(const SolveOptions& options) {
   if (!solution) return fail(solution.error());
   const Solved solved{*world, *world->mdp, asked, std::move(*solution), seconds, seconds_load};
   if (!options.output.file.empty()) {
-    const Result<void> written =
-        write_output(options.output.file, solve_json(solved, true), {options.world.name});
+    const Result<void> written = write_answer(solved, options.output.file, options.world.name);
     if (!written) return fail(written.error());
   }
   std::string text;
@@ -252,7 +285,10 @@ void declare_solve(Options& options) {
   given->given.declare_flags(options, settings_of(defaults));
   options.option("--threads", &given->threads, "N",
                  "processors to use; 0 = all; changes no result");
-  given->output.declare(options, "also write the JSON object, complete, to a file");
+  given->output.declare(
+      options,
+      "also write the JSON object, complete; of a grid as NAME.csv x, y, move and cost, as "
+      "NAME.yaml an image of the cost for ROS");
   options.run([given] { return solve(*given); });
 }
 

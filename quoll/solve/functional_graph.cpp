@@ -171,6 +171,33 @@ bool add_constant(const Mdp& mdp, const Discount& discount, std::span<const Stat
   return true;
 }
 
+// At discount 1, where every move costs at least m: gives up the same small share of all costs.
+// With U <= 0 and T U <= U + excess, T((1 - share) U) <= (1 - share) U holds if share m >= excess,
+// for r + (1 - share)(U' - U) <= r + (1 - share)(excess - r) <= excess - share m. What the rounding
+// adds to the excess is a few ulps of U; whether it was enough is checked with outward rounding.
+bool give_up_share(const Mdp& mdp, const Discount& discount, std::span<const State> order,
+                   std::vector<double>& upper) {
+  double excess = 0.0;
+  double size = 0.0;
+  double least = infinity;
+  for (const State s : order) {
+    if (!(upper[s] <= 0.0) || upper[s] == -infinity) return false;
+    for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
+      least = std::min(least, -mdp.reward(c));
+    }
+    excess = std::max(excess, best_up(mdp, discount, upper, s, upper[s]) - upper[s]);
+    size = std::max(size, -upper[s]);
+  }
+  if (!(least > 0.0)) return false;
+  const double share = (2.0 * excess + 0x1p-50 * size) / least;
+  if (!(share < 1.0)) return false;
+  for (const State s : order) upper[s] *= 1.0 - share;
+  for (const State s : order) {
+    if (best_up(mdp, discount, upper, s, upper[s]) > upper[s]) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 GraphValues evaluate_graph(const Mdp& mdp, std::span<const Action> policy, const Discount& discount,
@@ -210,7 +237,8 @@ bool raise_until_inductive(const Mdp& mdp, const Discount& discount, std::span<c
     }
     if (!raised) return true;
   }
-  return !discount.none() && add_constant(mdp, discount, order, upper);
+  return discount.none() ? give_up_share(mdp, discount, order, upper)
+                         : add_constant(mdp, discount, order, upper);
 }
 
 std::optional<TwoRewards> two_rewards(const Mdp& mdp) {

@@ -34,8 +34,8 @@ std::uint64_t improve_policy(const Mdp& mdp, const GraphValues& values, const Di
                              std::span<const std::uint8_t> live, std::vector<Action>& policy);
 
 /// Raises `upper` until T upper <= upper holds with outward rounding in the states of `order`;
-/// gives up after `sweeps` sweeps and then, below discount 1, adds one constant everywhere. False:
-/// not achieved.
+/// gives up after `sweeps` sweeps and then adds one constant everywhere, or at discount 1, if every
+/// move costs something, lowers all costs by one share. False: not achieved.
 bool raise_until_inductive(const Mdp& mdp, const Discount& discount, std::span<const State> order,
                            std::vector<double>& upper, unsigned sweeps = 64);
 

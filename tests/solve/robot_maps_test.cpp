@@ -100,6 +100,21 @@ TEST(RobotMaps, AMazeIsAsLongAsWithFourMoves) {
   EXPECT_EQ(solved(*mdp).lower[mdp->start()[0]], solved(*plain).lower[plain->start()[0]]);
 }
 
+TEST(RobotMaps, AnOpenFieldIsCertified) {
+  // Very many equally long ways whose sums round differently: 400 diagonals or straight moves.
+  std::string text = "height 400\nwidth 400\nmap\n";
+  for (int row = 0; row < 400; ++row) text += std::string(400, '.') + "\n";
+  const auto mdp = parse_model(text, "field.map", {{"goal", "399,399"}});
+  ASSERT_TRUE(mdp) << message(mdp.error());
+  const Solution solution = solved(*mdp);
+  EXPECT_TRUE(solution.converged);
+  EXPECT_NEAR(-solution.lower[0], 399 * diagonal, 1e-9);
+  EXPECT_LE(-solution.upper[0], 399 * diagonal);
+  EXPECT_NEAR(-solution.upper[0], 399 * diagonal, 1e-8);
+  // From x = 200 in the first row: 199 columns and 399 rows, 199 moves of both.
+  EXPECT_NEAR(-solution.lower[200], 200 + 199 * diagonal, 1e-9);
+}
+
 // QUOLL_SCENARIO=FOLDER/name.map.scen, with FOLDER/name.map beside it: every problem's length.
 TEST(RobotMaps, LengthsOfABenchmark) {
   const char* scenario = std::getenv("QUOLL_SCENARIO");
