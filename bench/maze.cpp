@@ -4,23 +4,17 @@
 // The same by hand: quoll new maze --with size=1000 --with braid=0.5 -o maze.txt, quoll solve
 // maze.txt
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "bench/yardstick/stopwatch.hpp"
 #include "quoll/model/formats/format.hpp"
 #include "quoll/model/maze.hpp"
 #include "quoll/solve/solver.hpp"
 
 namespace {
-
-double seconds(auto&& work) {
-  const auto begun = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-}
 
 // Moves to the goal per cell in reading order, -1 for walls and cells that cannot reach it.
 std::vector<int> distances(const std::vector<std::string>& rows) {
@@ -59,14 +53,14 @@ int main(int argc, char** argv) {
   const std::string text = quoll::to_text(grid);
 
   quoll::Result<quoll::Mdp> mdp = quoll::Error{};
-  const double loading = seconds([&] { mdp = quoll::parse_model(text, "maze.txt"); });
+  const double loading = yardstick::seconds([&] { mdp = quoll::parse_model(text, "maze.txt"); });
   if (!mdp) return std::printf("%s\n", quoll::message(mdp.error()).c_str()), 1;
   quoll::Result<quoll::Solution> solution = quoll::Error{};
-  const double solving = seconds([&] { solution = quoll::solve(*mdp); });
+  const double solving = yardstick::seconds([&] { solution = quoll::solve(*mdp); });
   if (!solution) return std::printf("%s\n", quoll::message(solution.error()).c_str()), 1;
 
   std::vector<int> distance;
-  const double searching = seconds([&] { distance = distances(grid.rows); });
+  const double searching = yardstick::seconds([&] { distance = distances(grid.rows); });
   std::uint64_t open = 0, equal = 0;
   for (std::size_t i = 0; i < distance.size(); ++i) {
     if (grid.rows[i / grid.rows[0].size()][i % grid.rows[0].size()] == '#') continue;

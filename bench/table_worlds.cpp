@@ -6,27 +6,16 @@
 // border.
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "bench/yardstick/stopwatch.hpp"
 #include "bench/yardstick/table_loop.hpp"
 #include "quoll/env/world.hpp"
 
 namespace {
-
-double seconds(auto&& work) {
-  const auto begun = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 // Lanes of a world, and what a caller of the border does: actions, restarts.
 struct Caller {
@@ -79,17 +68,17 @@ void row(const std::string& name, const quoll::Parameters& parameters, std::uint
   const std::uint64_t rounds = std::max<std::uint64_t>(1, steps / lanes);
   std::uint64_t finished = 0;
   for (int round = 0; round < 9; ++round) {
-    const double mine = seconds([&] {
+    const double mine = yardstick::seconds([&] {
       for (std::uint64_t t = 0; t < rounds; ++t) caller.step(actions);
     });
-    const double hand = seconds([&] {
+    const double hand = yardstick::seconds([&] {
       for (std::uint64_t t = 0; t < rounds; ++t) finished += loop.step();
     });
     ours.push_back(static_cast<double>(rounds * lanes) / mine * 1e-6);
     ratios.push_back(hand / mine);
   }
   std::printf("%-14s %5u lanes  %7.1f M steps/s  ratio %.2f  (episodes %llu and %llu)\n",
-              name.c_str(), lanes, median(ours), median(ratios),
+              name.c_str(), lanes, yardstick::median(ours), yardstick::median(ratios),
               static_cast<unsigned long long>(caller.finished),
               static_cast<unsigned long long>(finished));
 }

@@ -3,29 +3,17 @@
 // prints steps per second of both, the ratio pair by pair, and whether the tables are the same
 // bits.
 
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <vector>
 
 #include "bench/yardstick/q_loop.hpp"
+#include "bench/yardstick/stopwatch.hpp"
 #include "quoll/learn/learner.hpp"
 #include "quoll/model/grid.hpp"
 
 namespace {
-
-double seconds(auto&& work) {
-  const auto begun = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 quoll::World grid_world(std::uint32_t side) {
   quoll::Grid grid;
@@ -59,15 +47,16 @@ void row(const quoll::World& world, std::uint32_t side, const char* epsilon, std
   yardstick::GridLoop loop(side, 0.99, 0.5, std::atof(epsilon), settings.seed);
   std::vector<double> ratios, ours, theirs;
   for (int round = 0; round < 15; ++round) {
-    const double mine = seconds([&] { (*learner)->advance(steps, {}); });
-    const double hand = seconds([&] { loop.run<first_tie>(steps); });
+    const double mine = yardstick::seconds([&] { (*learner)->advance(steps, {}); });
+    const double hand = yardstick::seconds([&] { loop.run<first_tie>(steps); });
     ours.push_back(static_cast<double>(steps) / mine * 1e-6);
     theirs.push_back(static_cast<double>(steps) / hand * 1e-6);
     ratios.push_back(hand / mine);
   }
   std::printf("%ux%u epsilon %-4s ties %-8s %8.1f M/s  hand-written %8.1f M/s  ratio %.3f  %s\n",
-              side, side, epsilon, first_tie ? "first" : "uniform", median(ours), median(theirs),
-              median(ratios), same_bits((*learner)->estimates(), loop) ? "same bits" : "DIFFERENT");
+              side, side, epsilon, first_tie ? "first" : "uniform", yardstick::median(ours),
+              yardstick::median(theirs), yardstick::median(ratios),
+              same_bits((*learner)->estimates(), loop) ? "same bits" : "DIFFERENT");
   std::printf(
       "    quoll learn GRID.txt --discount 0.99 --explore epsilon-greedy --epsilon %s "
       "--step-size 0.5%s --steps %llu\n",
