@@ -7,8 +7,7 @@
 
 #include "quoll/base/math.hpp"
 #include "quoll/base/random.hpp"
-
-// The reference is the C library's long double functions, as in math_test.cpp.
+#include "tests/base/ulps.hpp"
 
 namespace quoll {
 namespace {
@@ -19,17 +18,8 @@ constexpr double smallest = std::numeric_limits<double>::denorm_min();
 constexpr double largest = std::numeric_limits<double>::max();
 constexpr double pi = 3.141592653589793;
 
-long double error_in_ulps(double found, long double expected) {
-  const long double size = fabsl(expected);
-  const long double ulp = size < 0x1p-1022L ? 0x1p-1074L : scalbnl(1.0L, ilogbl(size) - 52);
-  return fabsl(found - expected) / ulp;
-}
-
-class InverseTrigonometry : public ::testing::Test {
+class InverseTrigonometry : public UlpsTest {
  protected:
-  void SetUp() override {
-    if (std::numeric_limits<long double>::digits < 64) GTEST_SKIP() << "no wider reference";
-  }
   void TearDown() override { RecordProperty("worst", std::to_string(static_cast<double>(worst))); }
   void note(double found, long double expected) {
     worst = std::max(worst, error_in_ulps(found, expected));

@@ -8,10 +8,7 @@
 #include <limits>
 
 #include "quoll/base/random.hpp"
-
-// The reference is the C library's long double functions: 64 bits of precision, error below 2 of
-// their own ulps, that is below 0.001 ulp of a double. Where long double is double the bounds
-// cannot be tested.
+#include "tests/base/ulps.hpp"
 
 namespace quoll {
 namespace {
@@ -21,24 +18,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 constexpr double largest = std::numeric_limits<double>::max();
 
-/// The distance between neighbouring doubles at `value`.
-long double ulp(long double value) {
-  const long double size = fabsl(value);
-  if (size < 0x1p-1022L) return 0x1p-1074L;
-  return scalbnl(1.0L, ilogbl(size) - 52);
-}
-
-long double error_in_ulps(double found, long double expected) {
-  if (fabsl(expected) > static_cast<long double>(largest) && std::isinf(found)) return 0;
-  return fabsl(found - expected) / ulp(expected);
-}
-
-class MathTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (std::numeric_limits<long double>::digits < 64) GTEST_SKIP() << "no wider reference";
-  }
-};
+class MathTest : public UlpsTest {};
 
 /// A double with uniformly random bits, positive and finite: every exponent is equally likely.
 double any_positive(Rng& rng) {

@@ -7,9 +7,7 @@
 
 #include "quoll/base/math.hpp"
 #include "quoll/base/random.hpp"
-
-// The reference is the C library's long double functions, whose error is below 0.001 ulp of a
-// double. Where long double is double the bounds cannot be tested.
+#include "tests/base/ulps.hpp"
 
 namespace quoll {
 namespace {
@@ -18,12 +16,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 constexpr double pi = std::numbers::pi;
-
-long double error_in_ulps(double found, long double expected) {
-  const long double size = fabsl(expected);
-  const long double ulp = size < 0x1p-1022L ? 0x1p-1074L : scalbnl(1.0L, ilogbl(size) - 52);
-  return fabsl(found - expected) / ulp;
-}
 
 /// The largest errors of both functions over what `draw` gives.
 template <class Draw>
@@ -37,12 +29,7 @@ std::pair<long double, long double> worst(int count, Draw draw) {
   return {sine, cosine};
 }
 
-class TrigonometryTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (std::numeric_limits<long double>::digits < 64) GTEST_SKIP() << "no wider reference";
-  }
-};
+class TrigonometryTest : public UlpsTest {};
 
 TEST_F(TrigonometryTest, IsWithinOneUlp) {
   Rng rng = stream(1, "angle");

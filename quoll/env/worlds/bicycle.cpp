@@ -81,8 +81,9 @@ struct Accelerations {
 
 Accelerations accelerations(const Position& at, const Curvatures& curve, Action action,
                             double sway) {
-  const double torque = 2.0 * (static_cast<double>(action / 3) - 1.0);
-  const double displacement = 0.02 * (static_cast<double>(action % 3) - 1.0) + sway;
+  const Action push = action / 3, lean = action % 3;
+  const double torque = 2.0 * (static_cast<double>(push) - 1.0);
+  const double displacement = 0.02 * (static_cast<double>(lean) - 1.0) + sway;
   const double phi = at.omega + math::atan(displacement / h);
   const double turning =
       sign(at.theta) * v * v * (m_d * r * (curve.front + curve.back) + m * h * curve.centre);
