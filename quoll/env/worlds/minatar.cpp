@@ -45,8 +45,8 @@ Drawing drawing(std::span<const Channel> channels, std::span<const float> flags)
   for (const std::size_t c : layers(channels)) {
     for (std::size_t cell = 0; cell < 100; ++cell) {
       if (flags[cell * channels.size() + c] == 0.0f) continue;
-      picture.box(channels[c].ink, static_cast<double>(cell % 10), static_cast<double>(cell / 10),
-                  1.0, 1.0);
+      const std::size_t column = cell % 10, row = cell / 10;
+      picture.box(channels[c].ink, static_cast<double>(column), static_cast<double>(row), 1.0, 1.0);
     }
   }
   return picture;
