@@ -28,8 +28,9 @@ struct Picture {
         drawing.box(ink(rows[r][c]), static_cast<double>(c), static_cast<double>(r), 1.0, 1.0);
       }
     }
-    return drawing.circle(Ink::agent, static_cast<double>(cells[at] % columns()) + 0.5,
-                          static_cast<double>(cells[at] / columns()) + 0.5, 0.35);
+    const std::size_t row = cells[at] / columns(), column = cells[at] % columns();
+    return drawing.circle(Ink::agent, static_cast<double>(column) + 0.5,
+                          static_cast<double>(row) + 0.5, 0.35);
   }
   static Ink ink(char letter) {
     switch (letter) {
