@@ -4,12 +4,13 @@
 #include <limits>
 #include <vector>
 
+#include "quoll/env/grid_window.hpp"
+
 namespace quoll {
 namespace {
 
 // The part of the grid that is shown, and which state stands in each of its cells.
-struct Window {
-  std::uint32_t top, left, rows, columns;
+struct Window : GridWindow {
   std::vector<State> state;  // rows x columns; no_state = a wall
 
   static constexpr State no_state = ~State{0};
@@ -18,18 +19,9 @@ struct Window {
   }
 };
 
-std::uint32_t begin_of(std::uint32_t around, std::uint32_t shown, std::uint32_t all) {
-  const std::uint32_t before = std::min(around, shown / 2);
-  return std::min(around - before, all - shown);
-}
-
-Window window(const Mdp& mdp, State at, std::uint32_t most_rows, std::uint32_t most_columns) {
+Window window(const Mdp& mdp, State at, const GridWindow& shown) {
   const Layout& layout = *mdp.layout();
-  Window view{};
-  view.rows = std::min(layout.rows, most_rows);
-  view.columns = std::min(layout.columns, most_columns);
-  view.top = begin_of(layout.cell[at] / layout.columns, view.rows, layout.rows);
-  view.left = begin_of(layout.cell[at] % layout.columns, view.columns, layout.columns);
+  Window view{shown, {}};
   view.state.assign(std::size_t{view.rows} * view.columns, Window::no_state);
   for (State s = 0; s < mdp.states(); ++s) {
     const std::uint32_t row = layout.cell[s] / layout.columns - view.top;
@@ -70,7 +62,9 @@ std::string letters(const Mdp& mdp) {
 }  // namespace
 
 std::string grid_state_text(const Mdp& mdp, State at) {
-  const Window view = window(mdp, at, 100, 160);
+  const Layout& layout = *mdp.layout();
+  const Window view =
+      window(mdp, at, grid_window(layout.rows, layout.columns, layout.cell[at], 100, 160));
   const std::string letter = letters(mdp);
   std::string text;
   for (std::uint32_t row = 0; row < view.rows; ++row) {
@@ -84,7 +78,9 @@ std::string grid_state_text(const Mdp& mdp, State at) {
 }
 
 Drawing grid_state_drawing(const Mdp& mdp, State at) {
-  const Window view = window(mdp, at, 60, 60);
+  const Layout& layout = *mdp.layout();
+  const Window view =
+      window(mdp, at, grid_window(layout.rows, layout.columns, layout.cell[at], 60, 60));
   const std::string letter = letters(mdp);
   Drawing drawing{static_cast<double>(view.columns), static_cast<double>(view.rows), {}};
   for (std::uint32_t row = 0; row < view.rows; ++row) {

@@ -2,6 +2,9 @@
 
 #include <memory>
 #include <numeric>
+#include <string_view>
+
+#include "quoll/env/grid_window.hpp"
 
 namespace quoll {
 namespace {
@@ -10,27 +13,31 @@ struct Picture {
   std::vector<std::string> rows;
   std::vector<std::uint32_t> cells;
 
-  std::size_t columns() const { return rows.front().size(); }
+  std::uint32_t high() const { return static_cast<std::uint32_t>(rows.size()); }
+  std::uint32_t wide() const { return static_cast<std::uint32_t>(rows.front().size()); }
   std::string text(State at) const {
+    const GridWindow view = grid_window(high(), wide(), cells[at], 100, 160);
     std::string lines;
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      lines += rows[r];
-      if (cells[at] / columns() == r) lines[lines.size() - columns() + cells[at] % columns()] = '@';
+    for (std::uint32_t r = 0; r < view.rows; ++r) {
+      lines += std::string_view(rows[view.top + r]).substr(view.left, view.columns);
       lines += '\n';
     }
+    const std::uint32_t row = cells[at] / wide() - view.top;
+    lines[std::size_t{row} * (view.columns + 1) + cells[at] % wide() - view.left] = '@';
     return lines;
   }
   Drawing drawing(State at) const {
-    Drawing drawing{static_cast<double>(columns()), static_cast<double>(rows.size()), {}};
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      for (std::size_t c = 0; c < columns(); ++c) {
-        if (rows[r][c] == ' ') continue;
-        drawing.box(ink(rows[r][c]), static_cast<double>(c), static_cast<double>(r), 1.0, 1.0);
+    const GridWindow view = grid_window(high(), wide(), cells[at], 60, 160);
+    Drawing drawing{static_cast<double>(view.columns), static_cast<double>(view.rows), {}};
+    for (std::uint32_t r = 0; r < view.rows; ++r) {
+      for (std::uint32_t c = 0; c < view.columns; ++c) {
+        const char letter = rows[view.top + r][view.left + c];
+        if (letter != ' ') drawing.box(ink(letter), c, r, 1.0, 1.0);
       }
     }
-    const std::size_t row = cells[at] / columns(), column = cells[at] % columns();
-    return drawing.circle(Ink::agent, static_cast<double>(column) + 0.5,
-                          static_cast<double>(row) + 0.5, 0.35);
+    const std::uint32_t row = cells[at] / wide() - view.top;
+    const std::uint32_t column = cells[at] % wide() - view.left;
+    return drawing.circle(Ink::agent, column + 0.5, row + 0.5, 0.35);
   }
   static Ink ink(char letter) {
     switch (letter) {

@@ -12,7 +12,8 @@ namespace quoll {
 
 /// The pictures of a grid. `cells[s]` = row * columns + column of state s; rows are equally long.
 /// Letters: '#' wall, 'G' and 'F' goals, '~', 'P', 'H' and 'C' danger, ' ' nothing, all others
-/// floor.
+/// floor. Grids wider than 160 or higher than 100 (60 in the drawing) show the part around the
+/// agent.
 Looks grid_looks(std::vector<std::string> picture, std::vector<std::uint32_t> cells);
 
 /// Every cell a state, in reading order; `direction` as in Layout.
