@@ -23,8 +23,8 @@ struct Point {
 };
 
 Point middle(const Layout& layout, std::uint32_t cell) {
-  const double column = cell % layout.columns;
-  const double row = cell / layout.columns;
+  const std::uint32_t across = cell % layout.columns, down = cell / layout.columns;
+  const double column = across, row = down;
   if (!layout.frame) return {column, row};
   const Layout::Frame& frame = *layout.frame;
   const double east = (column + 0.5) * frame.side;

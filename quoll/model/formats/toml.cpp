@@ -23,22 +23,29 @@ class std::basic_ifstream<char> : public std::istream {
 
 // Its test for blanks calls most letters beyond ASCII unreachable, which they are not.
 // Version 3.4 calls its parts .hpp.
-#if __has_include(<toml++/impl/preprocessor.hpp>)
-#define TOML_PART(name) <toml++/impl/name.hpp>
-#else
-#define TOML_PART(name) <toml++/impl/name.h>
-#endif
 // clang-format off
-#include TOML_PART(preprocessor)
-#include TOML_PART(std_new)
-#include TOML_PART(std_string)
-#include TOML_PART(std_optional)
-#include TOML_PART(forward_declarations)
+#if __has_include(<toml++/impl/preprocessor.hpp>)
+#include <toml++/impl/preprocessor.hpp>
+#include <toml++/impl/std_new.hpp>
+#include <toml++/impl/std_string.hpp>
+#include <toml++/impl/std_optional.hpp>
+#include <toml++/impl/forward_declarations.hpp>
+#else
+#include <toml++/impl/preprocessor.h>
+#include <toml++/impl/std_new.h>
+#include <toml++/impl/std_string.h>
+#include <toml++/impl/std_optional.h>
+#include <toml++/impl/forward_declarations.h>
+#endif
 // clang-format on
 #pragma push_macro("TOML_UNREACHABLE")
 #undef TOML_UNREACHABLE
 #define TOML_UNREACHABLE return false
-#include TOML_PART(unicode)
+#if __has_include(<toml++/impl/unicode.hpp>)
+#include <toml++/impl/unicode.hpp>
+#else
+#include <toml++/impl/unicode.h>
+#endif
 #pragma pop_macro("TOML_UNREACHABLE")
 
 #include <toml++/toml.h>
