@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "quoll/env/worlds/pictures.hpp"
+#include "quoll/env/worlds/table_writer.hpp"
 
 namespace quoll {
 namespace {
@@ -45,67 +46,57 @@ class Sea {
  public:
   explicit Sea(const Settings& settings)
       : settings_(settings), size_(static_cast<std::uint32_t>(settings.size)) {
-    a_.outcome_begin = {0};
-    a_.choice_begin = {0};
-    a_.state_names = {};
-    a_.layout = Layout{size_ + 1, size_, {}, {{-1, 1}, {1, 1}}};
+    table_.arrays().layout = Layout{size_ + 1, size_, {}, {{-1, 1}, {1, 1}}};
   }
 
-  MdpArrays build() {
+  Result<Mdp> model() {
     Rng dice = stream(settings_.mapping_seed, "deep-sea");
     for (std::uint32_t row = 0; row < size_; ++row) {
       for (std::uint32_t column = 0; column <= row; ++column) {
         const bool swapped = settings_.mapping_seed != 0 && dice.below(2) == 1;
+        add_state(cell_name(row, column), row * size_ + column);
         add_choice({row, column}, swapped);
         add_choice({row, column}, !swapped);
-        add_state(cell_name(row, column), row * size_ + column);
       }
     }
     add_state("seabed", size_ * size_);
-    a_.action_names.push_back("left");
-    a_.action_names.push_back("right");
-    a_.start = {0};
-    return std::move(a_);
+    table_.arrays().action_names.push_back("left");
+    table_.arrays().action_names.push_back("right");
+    table_.start(0);
+    return table_.finish();
   }
 
  private:
   void add_state(const std::string& name, std::uint32_t cell) {
-    a_.choice_begin.push_back(a_.action.size());
-    a_.state_names.push_back(name);
-    a_.layout->cell.push_back(cell);
+    table_.state(name);
+    table_.arrays().layout->cell.push_back(cell);
   }
   State below(Cell cell, std::uint32_t column) const {
     return cell.row + 1 == size_ ? size_ * (size_ + 1) / 2 : state_of({cell.row + 1, column});
-  }
-  void add_outcome(State next, double reward, double probability) {
-    a_.next.push_back(next);
-    a_.outcome_reward.push_back(reward);
-    a_.probability.push_back(probability);
   }
   void add_choice(Cell cell, bool right) {
     const bool last = cell.row + 1 == size_;
     const bool treasure = last && cell.column + 1 == size_;
     const double reward =
         (right ? -settings_.move_cost / size_ : 0.0) + (right && treasure ? 1.0 : 0.0);
+    table_.choice(right ? 1 : 0);
     const State left_cell = below(cell, cell.column == 0 ? 0 : cell.column - 1);
     if (settings_.stochastic && last && (cell.column == 0 || treasure)) {
-      add_outcome(left_cell, reward + 1.0, 0.5);
-      add_outcome(left_cell, reward - 1.0, 0.5);
+      table_.outcome(0.5, left_cell, reward + 1.0);
+      table_.outcome(0.5, left_cell, reward - 1.0);
     } else if (!right) {
-      add_outcome(left_cell, reward, 1.0);
+      table_.outcome(1.0, left_cell, reward);
     } else if (settings_.stochastic && !last) {
-      add_outcome(below(cell, cell.column + 1), reward, 1.0 - 1.0 / size_);
-      add_outcome(below(cell, cell.column), reward, 1.0 / size_);
+      table_.outcome(1.0 - 1.0 / size_, below(cell, cell.column + 1), reward);
+      table_.outcome(1.0 / size_, below(cell, cell.column), reward);
     } else {
-      add_outcome(below(cell, cell.column + 1), reward, 1.0);
+      table_.outcome(1.0, below(cell, cell.column + 1), reward);
     }
-    a_.action.push_back(right ? 1 : 0);
-    a_.outcome_begin.push_back(a_.next.size());
   }
 
   Settings settings_;
   std::uint32_t size_;
-  MdpArrays a_;
+  TableWriter table_{1.0};
 };
 
 std::vector<std::string> picture_of(std::uint32_t size) {
@@ -121,7 +112,7 @@ std::vector<std::string> picture_of(std::uint32_t size) {
 Result<World> make(const Parameters& given) {
   const Result<Settings> settings = read_parameters<Settings>("deep-sea", given);
   if (!settings) return settings.error();
-  Result<Mdp> mdp = Mdp::make(Sea(*settings).build());
+  Result<Mdp> mdp = Sea(*settings).model();
   if (!mdp) return mdp.error();
   std::vector<std::uint32_t> cells = mdp->layout()->cell;
   return to_world(
