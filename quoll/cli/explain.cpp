@@ -143,14 +143,19 @@ std::string heading(const Lesson& lesson, const World& world) {
       lesson.setup.step_size.text(), words.q, number_text(lesson.setup.initial_value));
 }
 
-std::string rule_text(const Lesson& lesson) {
+std::string rule_text(const Lesson& lesson, const Mdp& mdp) {
+  const char* const sign = mdp.alternating() ? "-" : "+";  // the next move is the other player's
   if (lesson.settings.rule == "reward-estimate") {
-    return "QE(s,a) := rE(s,a) + discount * max QE(s',.), rE = the mean of the rewards observed "
-           "for "
-           "(s,a)\n";
+    return fmt::format(
+        "QE(s,a) := rE(s,a) {} discount * max QE(s',.), rE = the mean of the rewards observed for "
+        "(s,a)\n",
+        sign);
   }
-  if (lesson.setup.step_size.one()) return "Q(s,a) := r + discount * max Q(s',.)\n";
-  return "Q(s,a) := Q(s,a) + step size * (r + discount * max Q(s',.) - Q(s,a))\n";
+  if (lesson.setup.step_size.one()) {
+    return fmt::format("Q(s,a) := r {} discount * max Q(s',.)\n", sign);
+  }
+  return fmt::format("Q(s,a) := Q(s,a) + step size * (r {} discount * max Q(s',.) - Q(s,a))\n",
+                     sign);
 }
 
 // Why a value above the bound estimates nothing; empty when none is.
@@ -228,12 +233,13 @@ std::string lesson_text(const Lesson& lesson, const World& world, bool all) {
   std::string text = heading(lesson, world), told;
   for (const Update& update : lesson.updates) told += teller.tell(update);
   if (!lesson.printed()) {
-    text += rule_text(lesson) + "\n" + lesson.origin + "\n" + told;
+    text += rule_text(lesson, mdp) + "\n" + lesson.origin + "\n" + told;
     return text + "\n" + q_text(lesson, mdp, teller, all);
   }
   const RuleComparison both{&mdp, lesson.updates, lesson.standard, lesson.setup.discount,
                             lesson.own};
-  text += "QE(s,a) := rE(s,a) + discount * max QE(s',.); then rE(s,a) := QE(s,a)\n\n";
+  text += fmt::format("QE(s,a) := rE(s,a) {} discount * max QE(s',.); then rE(s,a) := QE(s,a)\n\n",
+                      mdp.alternating() ? "-" : "+");
   text += as_printed_banner(lesson.all_zero());
   const auto first = first_difference(both);
   if (first) text += fmt::format("Watch step {}.\n", lesson.updates[*first].step);

@@ -91,9 +91,10 @@ std::string way_text(const StateAnswer& answer) {
   const std::size_t shown = std::min(way.choices.size(), longest_way);
   std::string path = mdp.state_name(way.states[0]);
   std::vector<double> rewards;
-  double total = 0.0, weight = 1.0;
+  double total = 0.0, weight = 1.0, side = 1.0;  // what the other player gets counts against
   for (std::size_t i = 0; i < way.choices.size(); ++i) {
-    const double reward = mdp.reward(way.choices[i]);
+    const double reward = side * mdp.reward(way.choices[i]) + 0.0;
+    side = mdp.carry(side);
     rewards.push_back(reward);
     total += weight * reward;
     weight *= answer.discount;
@@ -118,9 +119,9 @@ std::string sum_text(const StateAnswer& answer, std::uint64_t choice) {
   std::string text;
   for (std::uint64_t o = first; o < end; ++o) {
     const double value = mdp.terminal(mdp.next(o)) ? 0.0 : answer.value[mdp.next(o)];
-    const std::string one =
-        fmt::format("{} + {} * {} [{}]", number_text(mdp.reward(choice, o)),
-                    number_text(answer.discount), factor_text(value), mdp.state_name(mdp.next(o)));
+    const std::string one = fmt::format("{} + {} * {} [{}]", number_text(mdp.reward(choice, o)),
+                                        factor_text(mdp.carry(answer.discount)), factor_text(value),
+                                        mdp.state_name(mdp.next(o)));
     if (end - first == 1) return one;
     text +=
         fmt::format("{}{} * ({})", o > first ? " + " : "", number_text(mdp.probability(o)), one);
@@ -138,6 +139,14 @@ bool is_best(const StateAnswer& answer, Action action) {
   return std::find(answer.best.begin(), answer.best.end(), action) != answer.best.end();
 }
 
+std::string q_words(const Mdp& mdp) {
+  const std::string sum = mdp.alternating() ? "reward - discount * V*" : "reward + discount * V*";
+  std::string words =
+      mdp.deterministic() ? sum + " of the next state" : "mean over its outcomes of " + sum;
+  if (mdp.alternating()) words += ", where the other player is to move";
+  return words;
+}
+
 std::string text_of_answer(const StateAnswer& answer, const World& world) {
   const Mdp& mdp = *answer.mdp;
   const std::string name = mdp.state_name(answer.state);
@@ -147,9 +156,7 @@ std::string text_of_answer(const StateAnswer& answer, const World& world) {
     return text + name + " is an end: nothing is earned after it, V* = 0.\n";
   }
   text += fmt::format("V*({}) = {}: the best of its moves; of each, Q* = {}\n", name,
-                      value_text(answer),
-                      mdp.deterministic() ? "reward + discount * V* of the next state"
-                                          : "mean over its outcomes of reward + discount * V*");
+                      value_text(answer), q_words(mdp));
   std::vector<TextTable::Column> columns{{"move"}, {"sum"}, {"Q*", TextTable::Align::point}, {""}};
   if (answer.learned) {
     columns.insert(columns.begin() + 3, {"learned Q", TextTable::Align::point});

@@ -47,6 +47,7 @@ class ModelEnvironment : public Environment, private Inspector {
     const auto found = std::upper_bound(start_sum_.begin(), start_sum_.end() - 1, draw);
     return mdp_->start()[static_cast<std::size_t>(found - start_sum_.begin())];
   }
+  bool turn_passes(State next) const { return mdp_->alternating() && !mdp_->terminal(next); }
   // Nothing happens in an end.
   void rest(std::size_t lane, Experience& now) {
     now.next[lane] = now.state[lane];
@@ -124,7 +125,8 @@ class TableEnvironment final : public ModelEnvironment {
       const std::uint64_t choice = mdp_->choice_begin(now.state[lane]) + now.action[lane];
       const Landing<double> landing = table.step(choice, draw);
       now.next[lane] = landing.next;
-      now.feedback[lane] = {landing.reward, landing.terminated, ++elapsed_[lane] == limit_};
+      now.feedback[lane] = {landing.reward, landing.terminated, ++elapsed_[lane] == limit_,
+                            turn_passes(now.next[lane])};
     }
   }
   void persist(Archive& archive) override {
@@ -176,7 +178,7 @@ class GuestTableEnvironment final : public ModelEnvironment {
       }
       now.next[lane] = mdp_->next(outcome);
       now.feedback[lane] = {mdp_->reward(choice, outcome), mdp_->terminal(now.next[lane]),
-                            ++elapsed_[lane] == limit_};
+                            ++elapsed_[lane] == limit_, turn_passes(now.next[lane])};
     }
   }
   void persist(Archive& archive) override {

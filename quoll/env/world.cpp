@@ -16,6 +16,7 @@ World to_world(std::string name, Mdp mdp, Looks looks, std::uint64_t episode_ste
   world.episode_steps = episode_steps;
   world.traits.deterministic = mdp.deterministic();
   world.traits.settable = true;
+  world.traits.players = mdp.alternating() ? 2 : 1;
   world.traits.states = mdp.states();
   world.traits.reward_bounds = mdp.reward_bounds();
   world.mdp = std::make_shared<const Mdp>(std::move(mdp));

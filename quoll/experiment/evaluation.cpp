@@ -31,7 +31,7 @@ Played play(const World& world, const Policy& policy, std::uint64_t episodes, st
   double sum = 0.0, discounted_sum = 0.0;
   for (std::uint64_t episode = 0; episode < episodes; ++episode) {
     environment->restart({&restart, 1}, now);
-    double factor = 1.0;
+    double side = 1.0, factor = 1.0;  // of the reward, as the player who moved first sees it
     bool over = world.mdp && world.mdp->terminal(state);
     ended += over;
     for (std::uint64_t t = 0; t < episode_steps && !over; ++t) {
@@ -39,9 +39,10 @@ Played play(const World& world, const Policy& policy, std::uint64_t episodes, st
       if (action == no_action) break;
       environment->step(now);
       ++steps;
-      sum += feedback.reward;
+      sum += side * feedback.reward;
       discounted_sum += factor * feedback.reward;
-      factor *= discount;
+      factor *= feedback.turn_passes ? -discount : discount;
+      side = feedback.turn_passes ? -side : side;
       state = next;
       observation = seen;
       over = feedback.terminated || feedback.truncated;

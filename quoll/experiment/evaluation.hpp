@@ -15,7 +15,8 @@ namespace quoll {
 /// The uniform policy of a world, whatever it is made of.
 UniformPolicy uniform_policy_of(const World& world);
 
-/// What playing a policy gave.
+/// What playing a policy gave. Where two players move in turn the policy plays both, and returns
+/// are those of the one who moved first.
 struct Played {
   std::uint64_t episodes = 0;
   double mean = 0.0;  ///< undiscounted return per episode

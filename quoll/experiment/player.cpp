@@ -28,7 +28,7 @@ void Player::see() {
 
 void Player::restart() {
   now_ = {};
-  factor_ = 1.0;
+  factor_ = side_ = 1.0;
   const std::uint8_t one = 1;
   Experience now = columns();
   environment_->restart({&one, 1}, now);
@@ -37,7 +37,7 @@ void Player::restart() {
 
 Result<void> Player::restart(const Tree& state) {
   now_ = {};
-  factor_ = 1.0;
+  factor_ = side_ = 1.0;
   State at = state_;
   if (Result<void> done = environment_->inspector()->set(0, state, at); !done) return done;
   state_ = at;
@@ -56,9 +56,10 @@ void Player::step(Action action) {
   now_.reward = feedback_.reward;
   now_.terminated = feedback_.terminated;
   now_.truncated = feedback_.truncated;
-  now_.total += feedback_.reward;
+  now_.total += side_ * feedback_.reward;
   now_.discounted += factor_ * feedback_.reward;
-  factor_ *= discount_;
+  factor_ *= feedback_.turn_passes ? -discount_ : discount_;
+  side_ = feedback_.turn_passes ? -side_ : side_;
   see();
 }
 

@@ -21,7 +21,7 @@ struct Moment {
   std::string action_name;
   double reward = 0.0;
   bool terminated = false, truncated = false;
-  double total = 0.0, discounted = 0.0;  ///< returns of the episode so far
+  double total = 0.0, discounted = 0.0;  ///< returns so far, of the player who moved first
 
   bool over() const { return terminated || truncated; }
 };
@@ -58,7 +58,7 @@ class Player {
 
   const World& world_;
   std::unique_ptr<Environment> environment_;
-  double discount_, factor_ = 1.0;
+  double discount_, factor_ = 1.0, side_ = 1.0;  // of the next reward
   Moment now_;
   State state_ = 0, next_ = 0;
   Action action_ = 0;

@@ -29,12 +29,15 @@ Result<void> defined_without_discount(const World& world, double discount) {
   if (fault.states.size() > 5) {
     names += " and " + std::to_string(fault.states.size() - 5) + " more";
   }
-  const bool cycle = fault.kind == UndiscountedFault::Kind::gaining_cycle;
-  return Error{"--discount", 0, 0,
-               (cycle ? "at discount 1 the cycle " + names + " earns without end"
-                      : "at discount 1 no end can be reached from " + names) +
-                   ": values are not defined; give --discount below 1, or --force",
-               ""};
+  using Kind = UndiscountedFault::Kind;
+  return Error{
+      "--discount", 0, 0,
+      (fault.kind == Kind::gaining_cycle ? "at discount 1 the cycle " + names + " earns without end"
+       : fault.kind == Kind::returning
+           ? "at discount 1 no state of a game of two may come again, but these can: " + names
+           : "at discount 1 no end can be reached from " + names) +
+          ": values are not defined; give --discount below 1, or --force",
+      ""};
 }
 
 void count_optimal(const Mdp& mdp, const Solution& exact, const std::vector<State>& from,

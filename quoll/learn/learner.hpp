@@ -31,9 +31,11 @@ struct LearnProgress {
   enum class Halt : std::uint8_t { none, stable, diverged } halt = Halt::none;
   std::uint64_t steps = 0;
   std::uint64_t episodes = 0;  ///< finished ones
-  double return_sum = 0.0;     ///< undiscounted returns of the finished episodes
-  std::uint64_t logged = 0;    ///< updates written to the log by the last advance
-  Impossible impossible;       ///< the first one
+  /// Undiscounted returns of the finished episodes; each reward counts for whoever moved, also
+  /// where two players move in turn.
+  double return_sum = 0.0;
+  std::uint64_t logged = 0;  ///< updates written to the log by the last advance
+  Impossible impossible;     ///< the first one
 };
 
 /// What was learned, per choice of the model (choice_begin(s) + a), in plain doubles. Without a

@@ -147,7 +147,9 @@ Result<double> initial_value(const LearnSettings& settings, const World& world, 
       for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
         for (std::uint64_t o = mdp.outcome_begin(c); o < mdp.outcome_end(c); ++o) {
           double& most = mdp.terminal(mdp.next(o)) ? last : running;
-          most = std::max(most, mdp.reward(c, o));
+          // What one player loses the other gains.
+          const double reward = mdp.reward(c, o);
+          most = std::max(most, mdp.alternating() ? std::fabs(reward) : reward);
         }
       }
     }

@@ -128,6 +128,7 @@ Result<MdpArrays> MdpBuilder::arrays() const {
   a.state_names = stored_names(state_names_);
   a.action_names = stored_names(action_names_);
   a.discount = discount_;
+  a.alternating = alternating_;
   a.layout = layout_;
   return a;
 }

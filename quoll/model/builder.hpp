@@ -31,6 +31,8 @@ class MdpBuilder {
   MdpBuilder& terminal(std::string_view name);
   /// Adds a start state; weights are normalised. Without any: uniform over the states with actions.
   MdpBuilder& start(std::string_view name, double weight = 1.0);
+  /// Two players move in turn; see MdpArrays::alternating.
+  void alternating(bool alternating) { alternating_ = alternating; }
   void layout(Layout layout) { layout_ = std::move(layout); }
 
   std::uint64_t states() const { return state_names_.size(); }
@@ -53,6 +55,7 @@ class MdpBuilder {
   void place_starts(MdpArrays& arrays) const;
 
   double discount_;
+  bool alternating_ = false;
   std::vector<Move> moves_;
   std::vector<std::string> state_names_, action_names_;
   std::unordered_map<std::string, std::uint32_t> state_index_, action_index_;

@@ -49,6 +49,12 @@ void undiscounted(std::vector<Finding>& findings, const Mdp& mdp) {
                  "can earn for ever, so with discount 1 its value is not defined",
                  "form a cycle that earns for ever, so with discount 1 values are not defined");
   }
+  if (fault.kind == UndiscountedFault::Kind::returning) {
+    about_states(findings, Finding::Severity::error, "returning", mdp, fault.states,
+                 "can come again in this game of two, so with discount 1 its value is not defined",
+                 "can come again in this game of two, so with discount 1 their values are not "
+                 "defined");
+  }
 }
 
 // The number of moves to the nearest end from the state farthest from one; without ends, from the

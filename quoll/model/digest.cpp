@@ -54,6 +54,7 @@ std::uint64_t digest(const Mdp& mdp) {
   for (std::uint64_t i = 0; i < a.action_names.size(); ++i) hash.add(a.action_names[i]);
   for (std::uint64_t i = 0; i < a.state_names.size(); ++i) hash.add(a.state_names[i]);
   hash.add(a.discount);
+  if (a.alternating) hash.add(std::uint64_t{2});
   return hash.value();
 }
 

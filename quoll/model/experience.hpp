@@ -10,11 +10,14 @@
 namespace quoll {
 
 /// The two ways an episode stops: `terminated` = the world ended, nothing follows; `truncated` =
-/// cut off from outside, the future still counts. Both may be set.
+/// cut off from outside, the future still counts. Both may be set. `turn_passes`: the next move is
+/// the opponent's, so that what follows counts with the opposite sign; not set where nothing
+/// follows.
 struct Feedback {
   double reward = 0.0;
   bool terminated = false;
   bool truncated = false;
+  bool turn_passes = false;
 };
 
 /// Columns with one entry per lane. `observation` columns hold lanes x observation_size floats and

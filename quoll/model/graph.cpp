@@ -96,4 +96,21 @@ std::vector<std::uint32_t> strongly_connected(const Mdp& mdp) {
   return component;
 }
 
+std::vector<State> returning_states(const Mdp& mdp) {
+  const std::vector<std::uint32_t> component = strongly_connected(mdp);
+  std::vector<std::uint32_t> size(mdp.states(), 0);
+  for (const std::uint32_t k : component) ++size[k];
+  std::vector<State> returning;
+  for (State s = 0; s < mdp.states(); ++s) {
+    bool again = size[component[s]] > 1;
+    for (std::uint64_t c = mdp.choice_begin(s); !again && c < mdp.choice_end(s); ++c) {
+      for (std::uint64_t o = mdp.outcome_begin(c); o < mdp.outcome_end(c); ++o) {
+        again = again || mdp.next(o) == s;
+      }
+    }
+    if (again && !mdp.terminal(s)) returning.push_back(s);
+  }
+  return returning;
+}
+
 }  // namespace quoll

@@ -27,6 +27,9 @@ std::vector<std::uint32_t> moves_from(const Mdp& mdp, std::span<const State> fro
 /// order: a move never leads to a component of higher number. Tarjan 1972, without recursion.
 std::vector<std::uint32_t> strongly_connected(const Mdp& mdp);
 
+/// States that can come again after they were left, ascending; empty = the model is acyclic.
+std::vector<State> returning_states(const Mdp& mdp);
+
 inline constexpr std::uint32_t no_component = std::numeric_limits<std::uint32_t>::max();
 /// Maximal end components: largest sets of states, not ends, in which one can stay for ever with
 /// probability 1 and go from each to each. A choice stays inside if all its outcomes lie in the
@@ -53,15 +56,16 @@ std::vector<State> gaining_class(const Mdp& mdp, const EndComponents& parts);
 
 /// Why total reward without discounting is not defined here, if it is not.
 struct UndiscountedFault {
-  enum class Kind : std::uint8_t { none, no_end, gaining_cycle } kind = Kind::none;
+  enum class Kind : std::uint8_t { none, no_end, gaining_cycle, returning } kind = Kind::none;
   std::vector<State> states;  ///< those that cannot reach an end, or one cycle in order, or the
-                              ///< states of a gaining end component
+                              ///< states of a gaining end component, or the returning ones
 };
 /// Checks what discount 1 needs, over the states reachable from the start: every state can reach an
 /// end, and no cycle of positive reward. Cycles are searched exactly in deterministic models (a
 /// gain below 1e-12 of the largest |reward| per move counts as rounding); in others a set of states
 /// that one policy stays in is a fault if its gain is certain (gaining_class), so that a gain too
-/// small to be decided is not reported.
+/// small to be decided is not reported. Where two players move in turn no state may come again:
+/// whether such a game ends is up to both.
 UndiscountedFault undiscounted_fault(const Mdp& mdp);
 
 /// States, reachable from the start or not, that can come to a part of the model that gains for

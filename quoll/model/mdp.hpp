@@ -55,6 +55,12 @@ struct MdpArrays {
   Names state_names;
   Names action_names;
   double discount = 1.0;
+  /// A game of two who move in turn: every move that does not end it passes the turn. Values and
+  /// rewards are those of the player to move, so that what follows counts -discount (negamax).
+  /// One flag for the model suffices: a player who may do nothing has an action that says so, and
+  /// one who moves again takes both moves in one action; games in which the turn sometimes stays
+  /// are environments, whose Feedback says it step by step.
+  bool alternating = false;
   std::optional<Layout> layout;
   /// Per choice: its line in the file, for messages; may be empty; dropped by make().
   std::vector<std::uint32_t> choice_line;
@@ -77,6 +83,11 @@ class Mdp {
   std::uint64_t outcomes() const { return a_.next.size(); }
   bool deterministic() const { return a_.probability.empty() && a_.outcome_begin.empty(); }
   double discount() const { return a_.discount; }
+  /// Two players move in turn; see MdpArrays::alternating.
+  bool alternating() const { return a_.alternating; }
+  /// What the value of a next state is multiplied by, at this discount: negative when the turn
+  /// passes (Shapley 1953 for the sign).
+  double carry(double discount) const { return a_.alternating ? -discount : discount; }
 
   /// Number of actions of a state (0 for most ends).
   Action actions(State s) const {

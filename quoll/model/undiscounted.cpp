@@ -228,6 +228,13 @@ UndiscountedFault undiscounted_fault(const Mdp& mdp) {
     fault.kind = UndiscountedFault::Kind::no_end;
     return fault;
   }
+  if (mdp.alternating()) {
+    for (const State s : returning_states(mdp)) {
+      if (reached[s]) fault.states.push_back(s);
+    }
+    if (!fault.states.empty()) fault.kind = UndiscountedFault::Kind::returning;
+    return fault;
+  }
   if (!can_gain(mdp, reached)) return fault;
   fault.states = gaining_states(mdp, reached);
   if (!fault.states.empty()) fault.kind = UndiscountedFault::Kind::gaining_cycle;

@@ -24,12 +24,12 @@ bool same(double a, double b) {
 
 // "80 + 0.8 * 100 = 160": the sum of a rule that takes whole steps.
 std::string sum_text(const Update& update, double discount) {
-  return fmt::format("{} + {} * {} = {}", number_text(update.reward), number_text(discount),
+  return fmt::format("{} + {} * {} = {}", number_text(update.reward), factor_text(discount),
                      factor_text(update.best_next), number_text(update.new_value));
 }
 
 std::string sum_without_result(const Update& update, double discount) {
-  return fmt::format("{} + {} * {}", number_text(update.reward), number_text(discount),
+  return fmt::format("{} + {} * {}", number_text(update.reward), factor_text(discount),
                      factor_text(update.best_next));
 }
 
@@ -53,7 +53,11 @@ UpdateWords UpdateWords::of(std::string_view rule) {
 
 UpdateTeller::UpdateTeller(const Mdp& mdp, std::vector<double> q, double discount,
                            UpdateWords words, std::vector<std::uint32_t> visits)
-    : mdp_(mdp), q_(std::move(q)), visits_(std::move(visits)), discount_(discount), words_(words) {
+    : mdp_(mdp),
+      q_(std::move(q)),
+      visits_(std::move(visits)),
+      discount_(mdp.carry(discount)),
+      words_(words) {
   visits_.resize(mdp.choices());
 }
 
@@ -74,7 +78,7 @@ std::string UpdateTeller::best_text(const Update& update) const {
 }
 
 std::string UpdateTeller::formula(const Update& update) const {
-  return fmt::format("{} + {} * {} = {}", number_text(update.reward), number_text(discount_),
+  return fmt::format("{} + {} * {} = {}", number_text(update.reward), factor_text(discount_),
                      best_text(update), number_text(update.target));
 }
 
@@ -151,7 +155,8 @@ std::optional<std::size_t> first_difference(const RuleComparison& view) {
 
 std::string comparison_text(const RuleComparison& view) {
   const Mdp& mdp = *view.mdp;
-  const std::string discount = number_text(view.discount);
+  const double carry = view.mdp->carry(view.discount);
+  const std::string discount = factor_text(carry);
   using Align = TextTable::Align;
   TextTable table({{"step", Align::right},
                    {"move"},
@@ -164,9 +169,8 @@ std::string comparison_text(const RuleComparison& view) {
     const Update& printed = view.printed[i];
     std::string note;
     if (first == i) {
-      note = fmt::format("<- first difference: {} against {}",
-                         sum_without_result(printed, view.discount),
-                         sum_without_result(view.standard[i], view.discount));
+      note = fmt::format("<- first difference: {} against {}", sum_without_result(printed, carry),
+                         sum_without_result(view.standard[i], carry));
     } else if (view.episodes && printed.terminated) {
       note = "end";
     } else if (view.episodes && printed.truncated) {
@@ -174,8 +178,7 @@ std::string comparison_text(const RuleComparison& view) {
     }
     table.row({std::to_string(printed.step),
                mdp.state_name(printed.state) + " " + action_name(mdp, printed),
-               sum_text(printed, view.discount), "|", sum_text(view.standard[i], view.discount),
-               std::move(note)});
+               sum_text(printed, carry), "|", sum_text(view.standard[i], carry), std::move(note)});
   }
   return table.text();
 }

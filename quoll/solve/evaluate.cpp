@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "quoll/model/graph.hpp"
+#include "quoll/solve/backward.hpp"
 #include "quoll/solve/chain_elimination.hpp"
 #include "quoll/solve/functional_graph.hpp"
 #include "quoll/solve/induced.hpp"
@@ -185,7 +186,8 @@ Result<Evaluation> evaluate(const Mdp& mdp, std::span<const double> choice_proba
   settings.keep_going = keep_going;
   const Result<double> valid = discount_in_use(mdp, settings);
   if (!valid) return valid.error();
-  Result<Evaluation> out = discount == 1.0
+  Result<Evaluation> out = mdp.alternating() ? evaluate_game(mdp, choice_probability, discount)
+                           : discount == 1.0
                                ? evaluate_undiscounted(mdp, choice_probability, settings)
                                : evaluate_discounted(mdp, choice_probability, settings);
   if (out) conclude(mdp, width, *out);
@@ -200,7 +202,7 @@ Result<Evaluation> evaluate(const Mdp& mdp, std::span<const Action> policy, doub
     return policy_error("state " + mdp.state_name(s) + " has " + std::to_string(mdp.actions(s)) +
                         " actions, not one numbered " + std::to_string(policy[s]));
   }
-  if (!mdp.deterministic()) {
+  if (!mdp.deterministic() || mdp.alternating()) {
     return evaluate(mdp, as_probabilities(mdp, policy), discount, width, keep_going);
   }
   SolveSettings settings;

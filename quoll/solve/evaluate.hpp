@@ -30,6 +30,8 @@ struct Evaluation {
 /// along the graph, relative error about 4e-16 per step, O(states). Others: below
 /// discount 1 sweeps until `width`; at discount 1 elimination (chain_elimination.hpp), sweeps where
 /// that takes too long.
+/// Where two players move in turn the policy plays both, and values are those of the player to
+/// move; such a model must be acyclic.
 /// Error: wrong length or an action a state does not have.
 Result<Evaluation> evaluate(const Mdp& mdp, std::span<const Action> policy, double discount,
                             double width = 1e-9, const KeepGoing& keep_going = {});

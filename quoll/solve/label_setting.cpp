@@ -167,7 +167,7 @@ class LabelSettingSolver : public Solver {
  public:
   Result<Solution> solve(const Mdp& mdp, const SolveSettings& settings) override {
     if (!settings.maximise) return solve_minimised(*this, mdp, settings);
-    const Result<double> discount = discount_in_use(mdp, settings);
+    const Result<double> discount = discount_of_one(mdp, settings);
     if (!discount) return discount.error();
     if (!mdp.deterministic()) {
       return Error{"--method", 0, 0, "label-setting solves deterministic models only", ""};

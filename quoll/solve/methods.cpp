@@ -30,6 +30,13 @@ Result<double> discount_in_use(const Mdp& mdp, const SolveSettings& settings) {
   return Error{"--discount", 0, 0, "a number above 0 and at most 1 was expected", ""};
 }
 
+Result<double> discount_of_one(const Mdp& mdp, const SolveSettings& settings) {
+  if (!mdp.alternating()) return discount_in_use(mdp, settings);
+  return Error{"--method", 0, 0,
+               "two players move in turn here: backward-induction solves such models",
+               "backward-induction"};
+}
+
 std::optional<Error> undiscounted_error(const Mdp& mdp) {
   const UndiscountedFault fault = undiscounted_fault(mdp);
   using Kind = UndiscountedFault::Kind;

@@ -14,9 +14,12 @@ namespace quoll {
 std::unique_ptr<Solver> make_value_iteration();
 std::unique_ptr<Solver> make_policy_iteration();
 std::unique_ptr<Solver> make_label_setting();
+std::unique_ptr<Solver> make_backward_induction();
 
 /// The discount in use: the settings' or the model's own. Error if outside (0, 1].
 Result<double> discount_in_use(const Mdp& mdp, const SolveSettings& settings);
+/// The same for methods of one player: Error for models where two move in turn.
+Result<double> discount_of_one(const Mdp& mdp, const SolveSettings& settings);
 
 /// The Error that names what makes total reward undefined at discount 1, if something does.
 std::optional<Error> undiscounted_error(const Mdp& mdp);

@@ -6,6 +6,7 @@
 
 #include "quoll/base/text.hpp"
 #include "quoll/model/graph.hpp"
+#include "quoll/solve/backward.hpp"
 #include "quoll/solve/ending.hpp"
 #include "quoll/solve/evaluate.hpp"
 #include "quoll/solve/functional_graph.hpp"
@@ -285,6 +286,7 @@ class Judge {
 
 Optimality judge(const Mdp& mdp, const Solution& exact, std::span<const Action> policy,
                  std::span<const State> from, double discount) {
+  if (mdp.alternating()) return judge_game(mdp, exact, policy, from, discount);
   return Judge(mdp, exact, policy, discount).run(from);
 }
 

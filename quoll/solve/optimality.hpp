@@ -28,11 +28,13 @@ struct Optimality {
 /// certified in every state; false: the contrary is certified, or a state has no_action. `exact` is
 /// a solution of the same model at the same discount. Cost: one evaluation of the policy;
 /// where that leaves a deterministic model undecided and another method solved it, one solve by
-/// label-setting.
+/// label-setting. Where two players move in turn, V^policy(s) is what the policy is sure to get
+/// from s for the player to move, against the best replies (judge_game).
 Optimality judge(const Mdp& mdp, const Solution& exact, std::span<const Action> policy,
                  std::span<const State> from, double discount);
 
-/// One backup: reward of the choice plus discounted expected value of what follows.
+/// One backup: reward of the choice plus discounted expected value of what follows, which counts
+/// negative when the turn passes.
 double q_star(const Mdp& mdp, std::span<const double> value, std::uint64_t choice, double discount);
 
 /// The actions that tie for the best, for many states of one model. Both arguments must outlive it.

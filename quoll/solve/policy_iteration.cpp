@@ -84,7 +84,7 @@ class PolicyIterationSolver : public Solver {
  public:
   Result<Solution> solve(const Mdp& mdp, const SolveSettings& settings) override {
     if (!settings.maximise) return solve_minimised(*this, mdp, settings);
-    const Result<double> discount = discount_in_use(mdp, settings);
+    const Result<double> discount = discount_of_one(mdp, settings);
     if (!discount) return discount.error();
     if (*discount == 1.0) return solve_undiscounted(mdp, settings, "policy-iteration");
     if (!mdp.deterministic()) return iterate_policies(mdp, settings, *discount);

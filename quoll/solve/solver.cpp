@@ -11,12 +11,14 @@ namespace quoll {
 
 namespace {
 
-constexpr std::array<SolverEntry, 3> registry{{
+constexpr std::array<SolverEntry, 4> registry{{
     {"value-iteration", "Bellman sweeps with MacQueen's bounds; discounts below 1",
      make_value_iteration},
     {"policy-iteration", "Howard's method; any model, also without discounting",
      make_policy_iteration},
     {"label-setting", "shortest paths; exact answers for deterministic models", make_label_setting},
+    {"backward-induction", "from the ends on; models in which no state comes again, games of two",
+     make_backward_induction},
 }};
 
 }  // namespace
@@ -26,6 +28,7 @@ std::span<const SolverEntry> solvers() {
 }
 
 std::string_view choose_solver(const Mdp& mdp, double discount) {
+  if (mdp.alternating()) return "backward-induction";
   if (mdp.deterministic()) return "label-setting";
   return discount < 1.0 ? "value-iteration" : "policy-iteration";
 }

@@ -4,7 +4,8 @@
 // the stored ones: for the decimal 0.8 a person wrote as well as for the double nearest to it.
 //
 // The optimal value at discount 1 is the best total reward of the policies that end with
-// probability 1; a state from which no policy does so has the value -infinity.
+// probability 1; a state from which no policy does so has the value -infinity. Where two players
+// move in turn (MdpArrays::alternating) it is what the player to move can be sure of.
 
 #include <cstdint>
 #include <functional>
@@ -55,8 +56,9 @@ struct SolverEntry {
 /// All solvers, in the order they are shown.
 std::span<const SolverEntry> solvers();
 
-/// Name of the solver `auto` takes, by the model's structure only: deterministic -> label-setting,
-/// discount below 1 -> value-iteration, else policy-iteration.
+/// Name of the solver `auto` takes, by the model's structure only: two players in turn ->
+/// backward-induction, deterministic -> label-setting, discount below 1 -> value-iteration, else
+/// policy-iteration.
 std::string_view choose_solver(const Mdp& mdp, double discount);
 
 /// Solves with the solver of that name, or the chosen one for "auto". Error: unknown name, and

@@ -57,6 +57,7 @@ struct StochasticRows {
 
 /// One backup of any model; for loops outside the kernel.
 inline double backup(const Mdp& mdp, double discount, const double* value, std::uint64_t choice) {
+  discount = mdp.carry(discount);
   if (mdp.deterministic()) return DeterministicRows(mdp).backup(discount, value, choice);
   return StochasticRows(mdp).backup(discount, value, choice);
 }

@@ -52,7 +52,7 @@ std::vector<Action> TiedActions::tied(State state) const {
     for (std::uint64_t o = mdp_.outcome_begin(c); o < mdp_.outcome_end(c); ++o) {
       mean += mdp_.probability(o) * middle(solution_, mdp_.next(o));
     }
-    q.push_back(mdp_.reward(c) + solution_.discount * mean);
+    q.push_back(mdp_.reward(c) + mdp_.carry(solution_.discount) * mean);
     best = std::max(best, q.back());
   }
   const double lower = solution_.lower[state];

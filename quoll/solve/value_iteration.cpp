@@ -134,7 +134,7 @@ class ValueIterationSolver : public Solver {
  public:
   Result<Solution> solve(const Mdp& mdp, const SolveSettings& settings) override {
     if (!settings.maximise) return solve_minimised(*this, mdp, settings);
-    const Result<double> discount = discount_in_use(mdp, settings);
+    const Result<double> discount = discount_of_one(mdp, settings);
     if (!discount) return discount.error();
     if (*discount == 1.0) return solve_undiscounted(mdp, settings, "value-iteration");
     return ValueIteration(mdp, settings, *discount).run();

@@ -18,9 +18,11 @@ struct Verdict {
 };
 
 /// Checks that T upper <= upper, T_policy lower >= lower, and at discount 1 that the policy
-/// ends with probability 1 wherever lower is above -infinity. One pass with outward rounding;
-/// O(size). Error: arrays of the wrong length, discount outside (0, 1], an action a state does not
-/// have.
+/// ends with probability 1 wherever lower is above -infinity. Where two players move in turn each
+/// bound is checked against the other one of the next states, V^policy is what the policy is sure
+/// to get against any replies, and at discount 1 no state may come again. One pass with outward
+/// rounding; O(size). Error: arrays of the wrong length, discount outside (0, 1], an action a state
+/// does not have.
 Result<Verdict> verify(const Mdp& mdp, std::span<const double> lower, std::span<const double> upper,
                        std::span<const Action> policy, double discount);
 

@@ -262,8 +262,8 @@ TEST(Csv, SaysWhereAndWhatIsWrong) {
       {"# actions = \"\"\n" + header + "A,go,B,1,0\n",
        "w.csv:1:13: expected a name that is not empty"},
       {"# discuont = 0.9\n" + header,
-       "w.csv:1:3: expected discount, start, terminal or actions, found 'discuont'; did you mean "
-       "'discount'?"},
+       "w.csv:1:3: expected discount, alternating, start, terminal or actions, found 'discuont'; "
+       "did you mean 'discount'?"},
       {"# discount = high\n" + header, "w.csv:1:13: expected a number after 'discount ='"},
       {"# discount = 0.9\n# discount = 0.8\n" + header,
        "w.csv:2:3: expected one discount, found a second"},

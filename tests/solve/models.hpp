@@ -6,13 +6,22 @@
 #include <utility>
 
 #include "quoll/model/builder.hpp"
+#include "quoll/model/graph.hpp"
 #include "quoll/model/mdp.hpp"
+#include "quoll/solve/solver.hpp"
 
 namespace quoll::test {
 
 inline Mdp built(const MdpBuilder& builder) {
   Result<Mdp> mdp = builder.build();
   return std::move(*mdp);
+}
+
+/// Whether a solver is made for a model of this kind.
+inline bool can_do(const SolverEntry& entry, const Mdp& mdp) {
+  if (entry.name == "backward-induction") return returning_states(mdp).empty();
+  if (mdp.alternating()) return false;
+  return mdp.deterministic() || entry.name != "label-setting";
 }
 
 /// The lecture's game: V* = 64, 80, 80, 100, 100 at GATE, HALL, POOL, CAVE, WELL.

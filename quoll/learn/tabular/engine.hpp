@@ -33,7 +33,7 @@ class TabularLearner final : public Learner {
         exploration_(setup.exploration),
         starts_(setup.starts),
         step_size_(setup.step_size),
-        discount_(setup.discount),
+        discount_(setup.world->mdp ? setup.world->mdp->carry(setup.discount) : setup.discount),
         episode_steps_(setup.episode_steps),
         stability_(setup.stable, layout.pairs),
         guard_(setup.value_bound, setup.discount, setup.initial_value),
@@ -263,8 +263,9 @@ class TabularLearner final : public Learner {
       const RowView<Value> there = rows.view(q, landing.next);
       const double best_next = landing.terminated ? 0.0 : double{there.best};
       const Value old = q[pair];
-      const Revision<Value> revision = revise(rule_, step_size, pair, old, double{landing.reward},
-                                              discount, best_next, n, draws.rounding());
+      const Revision<Value> revision =
+          revise(rule_, step_size, pair, old, double{landing.reward}, carry(landing, discount),
+                 best_next, n, draws.rounding());
       q[pair] = revision.value;
       rule_.learned(pair, double{revision.value});
       if (!guard_.fine(double{revision.value})) [[unlikely]] {
@@ -315,6 +316,15 @@ class TabularLearner final : public Learner {
             double{revision.value}};
   }
 
+  // Tables of two players hold a negative discount; environments say whose turn comes.
+  template <class Landing>
+  static double carry(const Landing& landing, double discount) {
+    if constexpr (requires { landing.turn_passes; }) {
+      return landing.turn_passes ? -discount : discount;
+    }
+    return discount;
+  }
+
   template <class Landing>
   static bool cut(const Landing& landing) {
     if constexpr (requires { landing.truncated; }) return landing.truncated;
@@ -361,7 +371,7 @@ class TabularLearner final : public Learner {
   Exploration exploration_;
   StartStates starts_;
   StepSize step_size_;
-  double discount_;
+  double discount_;  // of what follows, negative in models where the turn passes
   std::uint64_t episode_steps_;
   Stability stability_;
   Guard guard_;

@@ -28,7 +28,7 @@ std::vector<Update> replay(const TabularSetup& setup, std::span<const Update> sc
     update.best_next = over ? 0.0 : double{*std::max_element(row, row_end)};
     update.old_value = double{q[pair]};
     const Revision<Value> revision =
-        revise(rule, setup.step_size, pair, q[pair], update.reward, setup.discount,
+        revise(rule, setup.step_size, pair, q[pair], update.reward, mdp.carry(setup.discount),
                update.best_next, ++visits[pair], nearest_rounding);
     q[pair] = revision.value;
     rule.learned(pair, double{revision.value});

@@ -40,7 +40,7 @@ class EnvironmentSource {
   struct EnvironmentLanding {
     State next;
     double reward;
-    bool terminated, truncated;
+    bool terminated, truncated, turn_passes;
   };
 
   explicit EnvironmentSource(std::unique_ptr<Environment> environment)
@@ -57,7 +57,8 @@ class EnvironmentSource {
     Experience now = columns();
     environment_->step(now);
     largest_ = std::fmax(largest_, std::fabs(feedback_.reward));
-    return {next_, feedback_.reward, feedback_.terminated, feedback_.truncated};
+    return {next_, feedback_.reward, feedback_.terminated, feedback_.truncated,
+            feedback_.turn_passes};
   }
   template <class Visits>
   State start(StartStates& starts, Rng& rng, const Visits& visits) {

@@ -28,8 +28,8 @@ namespace {
 enum Column : std::size_t { state, action, next_state, probability, reward };
 constexpr std::array<std::string_view, 5> column_names = {"state", "action", "next_state",
                                                           "probability", "reward"};
-constexpr std::array<std::string_view, 4> property_names = {"discount", "start", "terminal",
-                                                            "actions"};
+constexpr std::array<std::string_view, 5> property_names = {"discount", "alternating", "start",
+                                                            "terminal", "actions"};
 constexpr std::string_view header = "state,action,next_state,probability,reward";
 constexpr double default_discount = 0.95;
 constexpr std::uint64_t most_rows = 0xffffffff;
@@ -81,6 +81,7 @@ class CsvReader {
   std::array<Successor, 16> queue_;
   std::size_t first_waiting_ = 0, waiting_ = 0;
   std::optional<double> discount_;
+  bool alternating_ = false;
   std::vector<Mention> start_, terminal_, first_actions_;
   std::vector<std::uint32_t> index_;  // per number in states_: index in the model
   Error error_;
@@ -141,10 +142,18 @@ bool CsvReader::read_property(std::string_view line) {
     if (!discount_) return fail(equals + 2, "expected a number after 'discount ='");
     return true;
   }
+  if (key == "alternating") {
+    const std::string_view value = trim(line.substr(equals + 1));
+    alternating_ = value == "true";
+    if (alternating_ || value == "false") return true;
+    return fail(equals + 2, "expected true or false after 'alternating ='");
+  }
   const std::string near = nearest(key, property_names);
   if (!near.empty()) {
-    return fail(column, "expected discount, start, terminal or actions, found " + in_quotes(key),
-                near);
+    return fail(
+        column,
+        "expected discount, alternating, start, terminal or actions, found " + in_quotes(key),
+        near);
   }
   return true;
 }
@@ -357,6 +366,7 @@ bool CsvReader::finish(MdpArrays& arrays) {
   arrays.terminal.erase(std::unique(arrays.terminal.begin(), arrays.terminal.end()),
                         arrays.terminal.end());
   arrays.discount = discount_.value_or(default_discount);
+  arrays.alternating = alternating_;
   const bool ordered = std::is_sorted(index_.begin(), index_.end());
   arrays.state_names = states_.take(ordered ? std::span<const std::uint32_t>() : index_);
   arrays.action_names = actions_.take({});

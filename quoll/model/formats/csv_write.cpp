@@ -37,6 +37,7 @@ bool start_as_default(const Mdp& mdp) {
 
 void write_properties(const Mdp& mdp, std::string& out) {
   out += "# discount = " + shortest(mdp.discount()) + "\n";
+  if (mdp.alternating()) out += "# alternating = true\n";
   if (!start_as_default(mdp)) {
     MentionWriter start(out, "start");
     const bool weighted = !mdp.arrays().start_probability.empty();

@@ -199,6 +199,7 @@ bool fits(const Mdp& mdp, const Layout& layout) {
 }  // namespace
 
 Result<std::string> write_grid(const Mdp& mdp) {
+  if (mdp.alternating()) return refuse("two players move in turn in it");
   const Layout* layout = mdp.layout();
   if (layout == nullptr) return refuse("its states are no cells");
   const std::uint64_t actions = mdp.arrays().action_names.size();

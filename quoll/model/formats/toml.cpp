@@ -84,11 +84,12 @@ class Reader {
   explicit Reader(const std::string& path) : path_(path) {}
 
   Result<MdpArrays> read(const toml::table& file) {
-    static constexpr std::array<std::string_view, 7> keys{"name",   "discount", "start", "terminal",
-                                                          "reward", "actions",  "states"};
+    static constexpr std::array<std::string_view, 8> keys{
+        "name", "discount", "alternating", "start", "terminal", "reward", "actions", "states"};
     if (known_keys(file, keys)) {
       if (const toml::node* name = file.get("name")) text(*name, "a name in quotes");
       a_.discount = number(file.get("discount"), 1.0);
+      a_.alternating = flag(file.get("alternating"));
       reward_ = number(file.get("reward"), 0.0);
       actions(file.get("actions"));
       states(file.get("states"));
@@ -131,6 +132,12 @@ class Reader {
     if (const auto* real = node->as_floating_point()) return real->get();
     fail(*node, "expected a number");
     return otherwise;
+  }
+
+  bool flag(const toml::node* node) {
+    if (node == nullptr) return false;
+    if (const auto* boolean = node->as_boolean()) return boolean->get();
+    return fail(*node, "expected true or false");
   }
 
   std::string_view text(const toml::node& node, const char* expected) {

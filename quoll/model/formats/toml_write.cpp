@@ -170,7 +170,9 @@ std::string toml_number(double value) {
 Result<std::string> write_toml(const Mdp& mdp) {
   const Result<void> proper = proper_names(mdp);
   if (!proper) return proper.error();
-  std::string text = "discount = " + toml_number(mdp.discount()) + "\nstart = " + start(mdp) + "\n";
+  std::string text = "discount = " + toml_number(mdp.discount()) + "\n";
+  if (mdp.alternating()) text += "alternating = true\n";
+  text += "start = " + start(mdp) + "\n";
   const std::vector<State>& terminal = mdp.arrays().terminal;
   for (std::size_t i = 0; i < terminal.size(); ++i) {
     text += (i == 0 ? "terminal = [" : ", ") + toml_string(mdp.state_name(terminal[i]));
