@@ -13,6 +13,7 @@ extern const WorldEntry cartpole_world;
 extern const WorldEntry chain_world;
 extern const WorldEntry cliff_walking_world;
 extern const WorldEntry combination_lock_world;
+extern const WorldEntry connect_four_world;
 extern const WorldEntry deep_sea_world;
 extern const WorldEntry dyna_maze_world;
 extern const WorldEntry forest_world;
@@ -34,6 +35,7 @@ extern const WorldEntry puddle_world;
 extern const WorldEntry racetrack_world;
 extern const WorldEntry river_swim_world;
 extern const WorldEntry taxi_world;
+extern const WorldEntry tic_tac_toe_world;
 extern const WorldEntry windy_grid_world;
 
 namespace {
@@ -47,6 +49,7 @@ constexpr const WorldEntry* entries[] = {
     &chain_world,
     &cliff_walking_world,
     &combination_lock_world,
+    &connect_four_world,
     &deep_sea_world,
     &dyna_maze_world,
     &forest_world,
@@ -68,6 +71,7 @@ constexpr const WorldEntry* entries[] = {
     &racetrack_world,
     &river_swim_world,
     &taxi_world,
+    &tic_tac_toe_world,
     &windy_grid_world,
 };
 

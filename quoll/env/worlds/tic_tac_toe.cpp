@@ -1,0 +1,265 @@
+// Tic-tac-toe: three in a row on a board of nine cells. A state is a board and whose turn it is,
+// "X.O/.X./..O x", the top row first, or how the game ended ("X.O/XO./X.. X won"); an action is a
+// cell, "a1" at the bottom left to "c3" at the top right. Whoever completes a row earns 1.
+//
+// opponent=self: the learner plays both sides. A step is one move and passes the turn, values are
+// those of the player to move (negamax); 5,478 positions.
+// opponent=uniform, perfect or a file: the learner has the side `mark`, and the answer is part of
+// the step, with reward -1 when it wins. uniform: any free cell, equally likely. perfect: a move of
+// the greatest game value, the first in the order of the actions (a3, b3, c3, a2, ... c1). A file
+// is a policy in CSV, "state,action" with the names of this world, as `export` writes it; it must
+// have an action wherever it can come to move.
+//
+// Draws: a start takes one number; a step takes one, used by opponent=uniform alone. JSON state:
+// the position's name.
+//
+// Source: the rules. Sutton, Barto 2018, section 1.5 (learning to play it); Zermelo 1913.
+
+#include <bit>
+#include <charconv>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "quoll/base/file.hpp"
+#include "quoll/base/text.hpp"
+#include "quoll/env/world.hpp"
+#include "quoll/model/formats/fields.hpp"
+#include "quoll/model/formats/lines.hpp"
+
+#include "quoll/env/worlds/board_game.hpp"
+
+namespace quoll {
+namespace {
+
+using board::Outcome;
+using board::Reply;
+using board::Side;
+
+struct TicTacToe {
+  struct Board {
+    std::uint32_t x = 0, o = 0;  // bit i: cell i in reading order
+  };
+
+  Board begin() const { return {}; }
+  std::uint64_t key(const Board& at) const { return at.x | std::uint64_t{at.o} << 9; }
+  static bool has_row(std::uint32_t cells) {
+    constexpr std::uint32_t rows[] = {0007, 0070, 0700, 0111, 0222, 0444, 0421, 0124};
+    for (const std::uint32_t row : rows) {
+      if ((cells & row) == row) return true;
+    }
+    return false;
+  }
+  Outcome outcome(const Board& at) const {
+    if (has_row(at.x)) return Outcome::x_won;
+    if (has_row(at.o)) return Outcome::o_won;
+    return (at.x | at.o) == 0777 ? Outcome::drawn : Outcome::running;
+  }
+  Side to_move(const Board& at) const {
+    return std::popcount(at.x) == std::popcount(at.o) ? Side::x : Side::o;
+  }
+  std::string cells(const Board& at) const {
+    std::string text;
+    for (std::uint32_t i = 0; i < 9; ++i) {
+      if (i == 3 || i == 6) text += '/';
+      text += at.x >> i & 1u ? 'X' : at.o >> i & 1u ? 'O' : '.';
+    }
+    return text;
+  }
+  std::vector<std::string> move_names() const {
+    return {"a3", "b3", "c3", "a2", "b2", "c2", "a1", "b1", "c1"};
+  }
+  bool legal(const Board& at, std::uint32_t move) const {
+    return ((at.x | at.o) >> move & 1u) == 0;
+  }
+  Board play(const Board& at, std::uint32_t move) const {
+    const std::uint32_t cell = 1u << move;
+    return to_move(at) == Side::x ? Board{at.x | cell, at.o} : Board{at.x, at.o | cell};
+  }
+};
+
+// The value to the player to move, by going through the whole game once.
+class GameTree {
+ public:
+  int value(TicTacToe::Board at) {
+    const Outcome outcome = game_.outcome(at);
+    if (outcome == Outcome::drawn) return 0;
+    if (outcome != Outcome::running) return -1;  // only the other one can have won
+    const auto known = known_.find(game_.key(at));
+    if (known != known_.end()) return known->second;
+    int best = -1;
+    for (std::uint32_t move = 0; move < 9; ++move) {
+      if (game_.legal(at, move)) best = std::max(best, -value(game_.play(at, move)));
+    }
+    known_.emplace(game_.key(at), best);
+    return best;
+  }
+  Reply best(TicTacToe::Board at) {
+    const int goal = value(at);
+    std::uint32_t move = 0;
+    while (!game_.legal(at, move) || -value(game_.play(at, move)) != goal) ++move;
+    return {{move, 1.0}};
+  }
+
+ private:
+  TicTacToe game_;
+  std::unordered_map<std::uint64_t, int> known_;  // only looked up
+};
+
+// The moves of a policy file, by key of the board.
+class PolicyFile {
+ public:
+  static Result<PolicyFile> read(const std::string& path) {
+    PolicyFile policy(path);
+    Result<std::string> content = read_file(path);
+    if (!content) return content.error();
+    Lines lines(*content);
+    std::string_view line;
+    bool header = true;
+    const std::unordered_map<std::string, TicTacToe::Board> boards = all_boards();
+    while (lines.next(line)) {
+      if (trim(line).empty() || line.front() == '#') continue;
+      Fields fields;
+      const auto refuse = [&](std::string expected) {
+        return Error{path, lines.number(), 0, std::move(expected), ""};
+      };
+      if (fields.split(line) || fields.count != 2) return refuse("state,action expected");
+      if (std::exchange(header, false)) {
+        if (fields.text[0] == "state" && fields.text[1] == "action") continue;
+        return refuse("the header state,action expected");
+      }
+      const auto board = boards.find(std::string(fields.text[0]));
+      if (board == boards.end()) {
+        return refuse("a position of tic-tac-toe expected, not '" + std::string(fields.text[0]) +
+                      "'");
+      }
+      const std::optional<std::uint32_t> move = find_move(board->second, fields.text[1]);
+      if (!move) {
+        return refuse("a free cell of " + board->first + " expected, not '" +
+                      std::string(fields.text[1]) + "'");
+      }
+      policy.moves_[TicTacToe().key(board->second)] = *move;
+    }
+    return policy;
+  }
+
+  Result<Reply> reply(TicTacToe::Board at) const {
+    const auto found = moves_.find(TicTacToe().key(at));
+    if (found != moves_.end()) return Reply{{found->second, 1.0}};
+    return Error{path_, 0, 0, "no action for state " + board::name_of(TicTacToe(), at), ""};
+  }
+
+ private:
+  explicit PolicyFile(std::string path) : path_(std::move(path)) {}
+
+  static std::unordered_map<std::string, TicTacToe::Board> all_boards() {
+    const TicTacToe game;
+    std::unordered_map<std::string, TicTacToe::Board> boards;  // only looked up
+    std::vector<TicTacToe::Board> open{game.begin()};
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      const TicTacToe::Board at = open[i];
+      if (game.outcome(at) != Outcome::running) continue;
+      if (!boards.emplace(board::name_of(game, at), at).second) continue;
+      for (std::uint32_t move = 0; move < 9; ++move) {
+        if (game.legal(at, move)) open.push_back(game.play(at, move));
+      }
+    }
+    return boards;
+  }
+  // By name, or by number among the free cells.
+  static std::optional<std::uint32_t> find_move(TicTacToe::Board at, std::string_view word) {
+    const TicTacToe game;
+    const std::vector<std::string> names = game.move_names();
+    std::uint32_t number = 0, count = 0;
+    const auto read = std::from_chars(word.data(), word.data() + word.size(), number);
+    const bool numeric = read.ec == std::errc() && read.ptr == word.data() + word.size();
+    for (std::uint32_t move = 0; move < 9; ++move) {
+      if (!game.legal(at, move)) continue;
+      if (names[move] == word || (numeric && count == number)) return move;
+      ++count;
+    }
+    return std::nullopt;
+  }
+
+  std::string path_;
+  std::unordered_map<std::uint64_t, std::uint32_t> moves_;  // only looked up
+};
+
+struct TicTacToeSettings {
+  std::string opponent = "self";
+  Side mark = Side::x;
+  double discount = 1.0;
+
+  void describe(Describer& describe) {
+    describe("opponent", opponent,
+             "self, uniform, perfect, or a file .csv with a policy of this world");
+    describe.choice("mark", mark, board::side_names,
+                    "the learner's side against an opponent; x begins");
+    describe("discount", discount, std::numeric_limits<double>::denorm_min(), 1.0,
+             "the reward's factor per step");
+  }
+};
+
+using Model = board::Compiled<TicTacToe>;
+
+Result<Model> compile(const TicTacToeSettings& settings) {
+  const TicTacToe game;
+  board::Compiler compiler(game, settings.discount);
+  if (settings.opponent == "self") return compiler.self_play();
+  if (settings.opponent == "uniform") {
+    return compiler.against(settings.mark, [&](TicTacToe::Board at) {
+      return Result<Reply>(board::uniform_reply(game, at));
+    });
+  }
+  if (settings.opponent == "perfect") {
+    GameTree tree;
+    return compiler.against(settings.mark,
+                            [&](TicTacToe::Board at) { return Result<Reply>(tree.best(at)); });
+  }
+  if (!settings.opponent.ends_with(".csv")) {
+    const std::vector<std::string> names{"self", "uniform", "perfect"};
+    return Error{"--with opponent", 0, 0,
+                 "self, uniform, perfect or a file .csv expected, not '" + settings.opponent + "'",
+                 nearest(settings.opponent, names)};
+  }
+  const Result<PolicyFile> file = PolicyFile::read(settings.opponent);
+  if (!file) return file.error();
+  return compiler.against(settings.mark, [&](TicTacToe::Board at) { return file->reply(at); });
+}
+
+Result<World> make(const Parameters& parameters) {
+  const Result<TicTacToeSettings> settings =
+      read_parameters<TicTacToeSettings>("tic-tac-toe", parameters);
+  if (!settings) return settings.error();
+  Result<Model> model = compile(*settings);
+  if (!model) return model.error();
+  const auto boards =
+      std::make_shared<const std::vector<TicTacToe::Board>>(std::move(model->boards));
+  const auto turn = [](TicTacToe::Board at) {
+    return board::turn_text(TicTacToe().outcome(at), TicTacToe().to_move(at));
+  };
+  Looks looks;
+  looks.text = [boards, turn](State s) {
+    return board::text_of(TicTacToe().cells((*boards)[s]), turn((*boards)[s]));
+  };
+  looks.drawing = [boards, turn](State s) {
+    return board::drawing_of(TicTacToe().cells((*boards)[s]), turn((*boards)[s]));
+  };
+  return to_world("tic-tac-toe", std::move(model->mdp), std::move(looks));
+}
+
+}  // namespace
+
+extern const WorldEntry tic_tac_toe_world;
+const WorldEntry tic_tac_toe_world{"tic-tac-toe",
+                                   "",
+                                   "three in a row, against oneself or an opponent",
+                                   "the rules; Sutton, Barto 2018, section 1.5",
+                                   make,
+                                   parameters_of<TicTacToeSettings>};
+
+}  // namespace quoll
