@@ -27,7 +27,8 @@ std::string text_of(std::string_view cells, std::string_view turn) {
 Drawing drawing_of(std::string_view cells, std::string_view turn) {
   const std::string_view row = cells.substr(0, cells.find('/'));
   const auto columns = static_cast<double>(row.size());
-  const auto rows = static_cast<double>((cells.size() + 1) / (row.size() + 1));
+  const std::size_t lines = (cells.size() + 1) / (row.size() + 1);
+  const auto rows = static_cast<double>(lines);
   Drawing drawing{columns, rows + 0.8, {}};
   double x = 0.0, y = 0.0;
   for (const char cell : cells) {

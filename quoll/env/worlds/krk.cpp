@@ -68,10 +68,10 @@ class Compiler {
     if (random()) arrays_.outcome_begin.push_back(0);
     for (const unsigned index : placement_) {
       const Placement at = Placement::of(index);
-      for (const unsigned to : krk::king_moves(at).list()) {
+      for (const unsigned to : krk::king_moves(at)) {
         add_choice(to, {to, at.rook, at.enemy});
       }
-      for (const unsigned to : krk::rook_moves(at).list()) {
+      for (const unsigned to : krk::rook_moves(at)) {
         add_choice(64 + to, {at.king, to, at.enemy});
       }
       arrays_.choice_begin.push_back(arrays_.action.size());
@@ -119,7 +119,7 @@ class Compiler {
       add_outcome(mate_ + 1, 1.0);
     } else if (random()) {
       const krk::Squares replies = krk::enemy_moves(at);
-      for (const unsigned to : replies.list()) add_outcome(after(at, to), 1.0 / replies.count);
+      for (const unsigned to : replies) add_outcome(after(at, to), 1.0 / replies.count);
     } else {
       add_outcome(after(at, fate == krk::rook_falls ? at.rook : endgame_.best_reply(at)), 1.0);
     }

@@ -82,7 +82,7 @@ struct Outlook {
 Outlook outlook(Placement at) {
   if (!apart(at)) return {};
   const Squares replies = enemy_moves(at);
-  for (const unsigned square : replies.list()) {
+  for (const unsigned square : replies) {
     if (square == at.rook) return {rook_falls, 0};
   }
   if (replies.count > 0) return {illegal, static_cast<std::uint8_t>(replies.count)};
@@ -120,11 +120,11 @@ struct Retrograde {
     won.clear();
     for (const unsigned index : lost) {
       const Placement at = Placement::of(index);
-      for (const unsigned square : around[at.king].list()) {
+      for (const unsigned square : around[at.king]) {
         const Placement before{square, at.rook, at.enemy};
         if (apart(before)) reach(before, moves);
       }
-      for (const unsigned square : rook_slides(at).list()) {
+      for (const unsigned square : rook_slides(at)) {
         reach({at.king, square, at.enemy}, moves);
       }
     }
@@ -134,7 +134,7 @@ struct Retrograde {
     lost.clear();
     for (const unsigned index : won) {
       const Placement at = Placement::of(index);
-      for (const unsigned square : around[at.enemy].list()) {
+      for (const unsigned square : around[at.enemy]) {
         const unsigned before = Placement{at.king, at.rook, square}.index();
         if (replies[before] == 0 || --replies[before] != 0) continue;
         known.lost_in[before] = moves;
@@ -152,7 +152,7 @@ bool in_check(Placement at) {
 
 Squares king_moves(Placement at) {
   Squares moves;
-  for (const unsigned square : around[at.king].list()) {
+  for (const unsigned square : around[at.king]) {
     if (square != at.rook && !touch(square, at.enemy)) moves.add(square);
   }
   return moves;
@@ -164,7 +164,7 @@ Squares rook_moves(Placement at) {
 
 Squares enemy_moves(Placement at) {
   Squares moves;
-  for (const unsigned square : around[at.enemy].list()) {
+  for (const unsigned square : around[at.enemy]) {
     if (!touch(square, at.king) && !rook_attacks(at.rook, square, at.king)) moves.add(square);
   }
   return moves;
@@ -172,7 +172,7 @@ Squares enemy_moves(Placement at) {
 
 unsigned Endgame::best_reply(Placement at) const {
   unsigned best = 0, longest_mate = 0;
-  for (const unsigned square : enemy_moves(at).list()) {
+  for (const unsigned square : enemy_moves(at)) {
     const unsigned moves = mate_in[Placement{at.king, at.rook, square}.index()];
     if (moves > longest_mate) {
       longest_mate = moves;

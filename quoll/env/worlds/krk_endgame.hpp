@@ -4,7 +4,6 @@
 // rook. Squares count a1 = 0, b1 = 1, ..., h8 = 63.
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -27,7 +26,8 @@ struct Squares {
   std::uint8_t square[22];
 
   void add(unsigned s) { square[count++] = static_cast<std::uint8_t>(s); }
-  std::span<const std::uint8_t> list() const { return {square, count}; }
+  const std::uint8_t* begin() const { return square; }
+  const std::uint8_t* end() const { return square + count; }
 };
 
 /// The legal moves of each piece, ascending; the placement must be legal for the side to move.

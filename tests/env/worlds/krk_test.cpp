@@ -164,7 +164,7 @@ TEST(Krk, TheDefenderPutsMateOffLongest) {
     if (fate == 0 || fate > krk::longest) continue;
     const Placement at = Placement::of(index);
     const unsigned reply = endgame().best_reply(at);
-    for (const unsigned square : krk::enemy_moves(at).list()) {
+    for (const unsigned square : krk::enemy_moves(at)) {
       const int mate_in = endgame().mate_in[Placement{at.king, at.rook, square}.index()];
       ASSERT_LE(mate_in, square < reply ? fate - 1 : fate);
       ASSERT_TRUE(square != reply || mate_in == fate);
