@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "models.hpp"
+#include "../solve/models.hpp"
 #include "quoll/base/random.hpp"
 #include "quoll/solve/evaluate.hpp"
 #include "quoll/solve/solver.hpp"
