@@ -160,10 +160,10 @@ struct CartPoleLoop {
       choose(again, start[3], turning, block.turning);
       block.began = (again & now) | (~again & block.began);
       if constexpr (rows) {
-        const F x[4] = {
+        const F all[4] = {
             __builtin_convertvector(block.x, F), __builtin_convertvector(block.speed, F),
             __builtin_convertvector(block.angle, F), __builtin_convertvector(block.turning, F)};
-        store_rows(x, row, std::make_index_sequence<width>());
+        store_rows(all, row, std::make_index_sequence<width>());
         const F ones = F{} + 1.0f;
         std::memcpy(rewards, &ones, sizeof ones);
         const Bytes ends = __builtin_convertvector(block.over, Bytes);
