@@ -24,6 +24,7 @@ Sampled sample(const World& world, const Policy& policy, const Plays& plays) {
     sampled.played.mean_discounted += weight * part.mean_discounted;
     sampled.played.mean_steps += weight * part.mean_steps;
     sampled.played.ended += weight * part.ended;
+    sampled.played.unknown += weight * part.unknown;
     means.push_back(part.mean);
   }
   const auto all = static_cast<double>(sampled.played.episodes);
@@ -31,8 +32,17 @@ Sampled sample(const World& world, const Policy& policy, const Plays& plays) {
   sampled.played.mean_discounted /= all;
   sampled.played.mean_steps /= all;
   sampled.played.ended /= all;
+  sampled.played.unknown /= all;
   sampled.statistics = statistics(means);
   return sampled;
+}
+
+std::string unknown_text(const Played& played) {
+  if (played.unknown == 0.0) return {};
+  return fmt::format(
+      "{:.0f} % of these episodes stopped where nothing was learned: the mean is of unfinished "
+      "episodes\n",
+      std::max(1.0, 100 * played.unknown));
 }
 
 void write_sampled(JsonWriter& json, const std::optional<Sampled>& sampled) {
@@ -51,7 +61,8 @@ void write_sampled(JsonWriter& json, const std::optional<Sampled>& sampled) {
   }
   json.member("mean_discounted", sampled->played.mean_discounted);
   json.member("mean_steps", sampled->played.mean_steps);
-  json.member("ended", sampled->played.ended).end_object();
+  json.member("ended", sampled->played.ended);
+  json.member("unknown", sampled->played.unknown).end_object();
 }
 
 std::string sampled_text(const Sampled& sampled) {
@@ -62,9 +73,10 @@ std::string sampled_text(const Sampled& sampled) {
     text += fmt::format(" (95 % interval [{}, {}])", number_text(*sampled.statistics.lower),
                         number_text(*sampled.statistics.upper));
   }
-  return text + fmt::format(", discounted {}, {:.0f} % reach an end, {} steps on average\n",
-                            number_text(played.mean_discounted), 100 * played.ended,
-                            number_text(played.mean_steps));
+  text += fmt::format(", discounted {}, {:.0f} % reach an end, {} steps on average\n",
+                      number_text(played.mean_discounted), 100 * played.ended,
+                      number_text(played.mean_steps));
+  return text + unknown_text(played);
 }
 
 }  // namespace quoll::cli

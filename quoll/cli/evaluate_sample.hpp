@@ -27,7 +27,9 @@ Sampled sample(const World& world, const Policy& policy, const Plays& plays);
 
 /// The member "evaluation" of a JSON object; null without one.
 void write_sampled(JsonWriter& json, const std::optional<Sampled>& sampled);
-/// One line for people.
+/// A line when episodes stopped in states that the policy knows nothing about, else nothing.
+std::string unknown_text(const Played& played);
+/// A line or two for people.
 std::string sampled_text(const Sampled& sampled);
 
 }  // namespace quoll::cli

@@ -1,4 +1,5 @@
 #include "quoll/cli/learn_report.hpp"
+#include "quoll/cli/evaluate_sample.hpp"
 
 #include <fmt/format.h>
 
@@ -295,6 +296,7 @@ std::string learn_text(const Run& run, const RunResult& result, const TerminalSt
     text += fmt::format("greedy policy: mean return {} over {}, {:.0f} % reach an end\n",
                         number_text(first.played.mean), counted(first.played.episodes, "episode"),
                         100 * first.played.ended);
+    text += unknown_text(first.played);
   }
   return text + next_steps(run);
 }

@@ -324,6 +324,10 @@ Result<int> played(const PlayOptions& options) {
   if (const Result<void> applied = options.given.apply(settings_of(asked)); !applied) {
     return applied.error();
   }
+  if (!options.drawing.empty() && !options.drawing.ends_with(".svg")) {
+    return Error{"--drawing", 0, 0,
+                 "a name that ends in .svg expected, not '" + options.drawing + "'", ""};
+  }
   if (!options.render.empty() && options.render != "text") {
     return Error{"--render", 0, 0,
                  "text expected, not '" + options.render + "' (a picture: --drawing FILE.svg)", ""};

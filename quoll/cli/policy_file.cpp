@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -166,17 +167,31 @@ Result<std::vector<Action>> read_json_policy(const std::string& path, const Mdp&
   return builder.take();
 }
 
+Parameters sorted(Parameters parameters) {
+  std::sort(parameters.begin(), parameters.end());
+  return parameters;
+}
+
+// "cartpole --with bins=6,6,12,12"
+std::string described(const std::string& name, const Parameters& parameters) {
+  std::string text = name;
+  for (const auto& [key, value] : parameters) text += " --with " + key + "=" + value;
+  return text;
+}
+
 Result<std::vector<Action>> read_run_policy(const std::string& path, const World& world) {
   const Result<Run> run = Run::load(path, false);
   if (!run) return run.error();
   const bool same = run->world().mdp && world.mdp
                         ? digest(*run->world().mdp) == digest(*world.mdp)
                         : !run->world().mdp && !world.mdp && run->world().name == world.name &&
-                              run->world().traits.states == world.traits.states;
+                              sorted(run->source().parameters) == sorted(world.parameters);
   if (!same) {
-    return Error{
-        path, 0, 0,
-        "this run learned " + run->source().name + ", which is not the model of " + world.name, ""};
+    return Error{path, 0, 0,
+                 "this run learned " + described(run->source().name, run->source().parameters) +
+                     (world.mdp ? ", which is not the model of " : ", not ") +
+                     described(world.name, world.parameters),
+                 ""};
   }
   const std::string reason = unsound(*run);
   if (!reason.empty()) return Error{path, 0, 0, "no policy to judge: " + reason, ""};

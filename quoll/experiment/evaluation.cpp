@@ -23,20 +23,24 @@ Played play(const World& world, const Policy& policy, std::uint64_t episodes, st
   State state = 0, next = 0;
   Action action = 0;
   Feedback feedback;
-  std::vector<float> observation(environment->spaces().observation), seen(observation.size());
+  const Spaces spaces = environment->spaces();
+  std::vector<float> observation(spaces.observation), seen(observation.size());
   Experience now{{&state, 1}, {&action, 1}, {&feedback, 1}, {&next, 1}, observation, seen};
   Rng behaviour = stream(seed, "behaviour");
   const std::uint8_t restart = 1;
-  std::uint64_t steps = 0, ended = 0;
+  std::uint64_t steps = 0, ended = 0, unknown = 0;
   double sum = 0.0, discounted_sum = 0.0;
   for (std::uint64_t episode = 0; episode < episodes; ++episode) {
     environment->restart({&restart, 1}, now);
     double side = 1.0, factor = 1.0;  // of the reward, as the player who moved first sees it
-    bool over = world.mdp && world.mdp->terminal(state);
+    bool over = world.mdp && world.mdp->terminal(state), known = true;
     ended += over;
     for (std::uint64_t t = 0; t < episode_steps && !over; ++t) {
       policy.act(now, {&action, 1}, {&behaviour, 1});
-      if (action == no_action) break;
+      if (action == no_action) {
+        known = false;
+        break;
+      }
       environment->step(now);
       ++steps;
       sum += side * feedback.reward;
@@ -48,6 +52,7 @@ Played play(const World& world, const Policy& policy, std::uint64_t episodes, st
       over = feedback.terminated || feedback.truncated;
       ended += feedback.terminated;
     }
+    unknown += !known;
   }
   const auto count = static_cast<double>(episodes);
   played.episodes = episodes;
@@ -56,6 +61,7 @@ Played play(const World& world, const Policy& policy, std::uint64_t episodes, st
   played.mean_discounted = discounted_sum / count;
   played.mean_steps = static_cast<double>(steps) / count;
   played.ended = static_cast<double>(ended) / count;
+  played.unknown = static_cast<double>(unknown) / count;
   return played;
 }
 

@@ -22,12 +22,13 @@ struct Played {
   double mean = 0.0;  ///< undiscounted return per episode
   double mean_discounted = 0.0;
   double mean_steps = 0.0;
-  double ended = 0.0;  ///< share of episodes that reached an end before the cut
+  double ended = 0.0;    ///< share of episodes that reached an end before the cut
+  double unknown = 0.0;  ///< share of episodes that stopped where the policy knows no action
 };
 
 /// Plays `episodes` episodes from the world's own starts with the stream "evaluation" of `seed`,
-/// each cut off after `episode_steps`. A state the policy knows nothing about ends the episode. A
-/// policy that draws takes the stream "behaviour".
+/// each cut off after `episode_steps`. A state the policy knows nothing about ends the episode, and
+/// is counted. Policies that draw take the stream "behaviour".
 Played play(const World& world, const Policy& policy, std::uint64_t episodes, std::uint64_t seed,
             double discount, std::uint64_t episode_steps);
 

@@ -42,6 +42,7 @@ Result<void> Player::restart(const Tree& state) {
   if (Result<void> done = environment_->inspector()->set(0, state, at); !done) return done;
   state_ = at;
   see();
+  now_.terminated = actions() == 0;
   return {};
 }
 

@@ -28,9 +28,11 @@ TEST(Play, EndsWhereThePolicyKnowsNothingAndAtTheCut) {
   std::vector<Action> left(world.mdp->states(), 0), none(world.mdp->states(), no_action);
   Played played = play(world, TablePolicy(left), 3, 1, 0.9, 7);
   EXPECT_EQ(played.mean_steps, 7.0);
+  EXPECT_EQ(played.unknown, 0.0);
   EXPECT_EQ(played.ended, 0.0);
   played = play(world, TablePolicy(none), 3, 1, 0.9, 7);
   EXPECT_EQ(played.mean_steps, 0.0);
+  EXPECT_EQ(played.unknown, 1.0);
   EXPECT_EQ(play(world, TablePolicy(left), 0, 1, 0.9, 7).mean, 0.0);
   EXPECT_EQ(play(world, TablePolicy(left), 3, 1, 0.9, 0).mean_steps, 0.0);
 }
