@@ -1,6 +1,7 @@
 // Worlds from files that take parameters.
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -13,12 +14,14 @@ namespace {
 class MapWorld : public testing::Test {
  protected:
   void SetUp() override {
-    path_ = testing::TempDir() + "map_world_test.map";
+    folder_ = testing::TempDir() + "map_world_test-" + std::to_string(getpid()) + "/";
+    std::filesystem::create_directory(folder_);
+    path_ = folder_ + "map_world_test.map";
     std::ofstream(path_) << "type octile\nheight 1\nwidth 3\nmap\n...\n";
   }
-  void TearDown() override { std::filesystem::remove(path_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  std::string path_;
+  std::string folder_, path_;
 };
 
 TEST_F(MapWorld, TakesParametersAndKeepsThem) {

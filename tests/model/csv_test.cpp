@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -287,7 +288,8 @@ TEST(Csv, WhatOnlyTheModelKnowsHasItsLine) {
 
 class CsvFile : public ::testing::Test {
  protected:
-  std::string path_ = ::testing::TempDir() + "quoll_csv_file_test.csv";
+  std::string path_ =
+      ::testing::TempDir() + "quoll_csv_file_test-" + std::to_string(getpid()) + ".csv";
   void write(const std::string& text) { std::ofstream(path_, std::ios::binary) << text; }
   void TearDown() override { std::filesystem::remove(path_); }
 };

@@ -1,6 +1,7 @@
 #include "quoll/env/world.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -88,7 +89,7 @@ TEST(FrozenLake, GeneratesGymnasiumsMaps) {
 }
 
 TEST(FrozenLake, ReadsAMapFromAFile) {
-  const std::string path = testing::TempDir() + "lake.txt";
+  const std::string path = testing::TempDir() + "lake-" + std::to_string(getpid()) + ".txt";
   std::ofstream(path) << "SFS\r\nFHG\r\n\n";
   const World world = made("frozen-lake", {{"map", path}});
   EXPECT_EQ(world.mdp->states(), 6u);

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <fstream>
@@ -122,7 +123,8 @@ TEST(TicTacToe, NobodyBeatsThePerfectPlayer) {
 }
 
 TEST(TicTacToe, AgainstAPolicyFromAFile) {
-  const std::string path = testing::TempDir() + "tic_tac_toe_policy.csv";
+  const std::string path =
+      testing::TempDir() + "tic_tac_toe_policy-" + std::to_string(getpid()) + ".csv";
   const auto with = [&](const std::string& text, const char* mark) {
     std::ofstream(path) << text;
     return find_world("tic-tac-toe", {{"opponent", path}, {"mark", mark}});

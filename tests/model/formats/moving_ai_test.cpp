@@ -1,6 +1,7 @@
 #include "quoll/model/formats/moving_ai.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -149,7 +150,7 @@ TEST(MovingAi, FaultsOfATaskNameTheOption) {
 class Scenario : public testing::Test {
  protected:
   void SetUp() override {
-    path_ = testing::TempDir() + "moving_ai_test.scen";
+    path_ = testing::TempDir() + "moving_ai_test-" + std::to_string(getpid()) + ".scen";
     write(
         "version 1\n"
         "0\tmaps/small.map\t5\t4\t0\t0\t1\t0\t1\n"

@@ -1,6 +1,7 @@
 #include "quoll/model/formats/ros_map.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -133,7 +134,7 @@ TEST(Pgm, FaultsNameTheirPlace) {
 class RosFiles : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = testing::TempDir() + "ros_map_test/";
+    folder_ = testing::TempDir() + "ros_map_test-" + std::to_string(getpid()) + "/";
     std::filesystem::create_directory(folder_);
     std::ofstream(folder_ + "lab.pgm") << image;
     std::ofstream(folder_ + "lab.yaml") << yaml;
