@@ -26,6 +26,11 @@ std::vector<bool> ends_of(const MdpArrays& a) {
 // probabilities.
 void drop_impossible_outcomes(MdpArrays& a) {
   if (std::find(a.probability.begin(), a.probability.end(), 0.0) == a.probability.end()) return;
+  std::vector<std::vector<double>*> along;
+  if (!a.outcome_reward.empty()) along.push_back(&a.outcome_reward);
+  for (RewardStructure& other : a.other_rewards) {
+    if (!other.outcome_reward.empty()) along.push_back(&other.outcome_reward);
+  }
   std::uint64_t kept = 0;
   std::uint64_t outcome = 0;
   for (std::size_t c = 0; c + 1 < a.outcome_begin.size(); ++c) {
@@ -35,14 +40,14 @@ void drop_impossible_outcomes(MdpArrays& a) {
       if (a.probability[outcome] == 0.0) continue;
       a.next[kept] = a.next[outcome];
       a.probability[kept] = a.probability[outcome];
-      if (!a.outcome_reward.empty()) a.outcome_reward[kept] = a.outcome_reward[outcome];
+      for (std::vector<double>* list : along) (*list)[kept] = (*list)[outcome];
       ++kept;
     }
   }
   a.outcome_begin.back() = kept;
   a.next.resize(kept);
   a.probability.resize(kept);
-  if (!a.outcome_reward.empty()) a.outcome_reward.resize(kept);
+  for (std::vector<double>* list : along) list->resize(kept);
 }
 
 // One zero: -0 and 0 are equal numbers with different bits.
@@ -52,12 +57,13 @@ void unsign_zeros(std::vector<double>& rewards) {
 
 // The expected reward of each choice. Equal outcome rewards are taken as they are: their weighted
 // sum might differ from them by rounding.
-void expect_rewards(MdpArrays& a) {
-  unsign_zeros(a.reward);
-  unsign_zeros(a.outcome_reward);
-  if (a.outcome_reward.empty()) return;
+void expect_rewards(const MdpArrays& a, std::vector<double>& reward,
+                    std::vector<double>& outcome_reward) {
+  unsign_zeros(reward);
+  unsign_zeros(outcome_reward);
+  if (outcome_reward.empty()) return;
   const std::size_t choices = a.action.size();
-  a.reward.resize(choices);
+  reward.resize(choices);
   bool varies = false;
   for (std::size_t c = 0; c < choices; ++c) {
     const std::uint64_t begin = a.outcome_begin.empty() ? c : a.outcome_begin[c];
@@ -65,13 +71,13 @@ void expect_rewards(MdpArrays& a) {
     bool equal = true;
     double sum = 0.0;
     for (std::uint64_t o = begin; o < end; ++o) {
-      equal = equal && a.outcome_reward[o] == a.outcome_reward[begin];
-      sum += (a.probability.empty() ? 1.0 : a.probability[o]) * a.outcome_reward[o];
+      equal = equal && outcome_reward[o] == outcome_reward[begin];
+      sum += (a.probability.empty() ? 1.0 : a.probability[o]) * outcome_reward[o];
     }
-    a.reward[c] = equal ? a.outcome_reward[begin] : sum;
+    reward[c] = equal ? outcome_reward[begin] : sum;
     varies = varies || !equal;
   }
-  if (!varies) release(a.outcome_reward);
+  if (!varies) release(outcome_reward);
 }
 
 void drop_impossible_starts(MdpArrays& a) {
@@ -117,7 +123,10 @@ Result<Mdp> Mdp::make(MdpArrays arrays) {
   }
   drop_impossible_outcomes(a);
   drop_impossible_starts(a);
-  expect_rewards(a);
+  expect_rewards(a, a.reward, a.outcome_reward);
+  for (RewardStructure& other : a.other_rewards) {
+    expect_rewards(a, other.reward, other.outcome_reward);
+  }
   drop_redundant_arrays(a);
 
   bool first = true;
@@ -142,6 +151,20 @@ std::optional<State> Mdp::find_state(std::string_view name) const {
   return static_cast<State>(*index);
 }
 
+const Label* Mdp::find_label(std::string_view name) const {
+  for (const Label& label : a_.labels) {
+    if (label.name == name) return &label;
+  }
+  return nullptr;
+}
+
+const RewardStructure* Mdp::find_rewards(std::string_view name) const {
+  for (const RewardStructure& rewards : a_.other_rewards) {
+    if (rewards.name == name) return &rewards;
+  }
+  return nullptr;
+}
+
 std::uint64_t Mdp::bytes() const {
   const auto held = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
   std::uint64_t total = held(a_.choice_begin) + held(a_.outcome_begin) + held(a_.next) +
@@ -149,6 +172,10 @@ std::uint64_t Mdp::bytes() const {
                         held(a_.action) + held(a_.start) + held(a_.start_probability) +
                         held(a_.terminal) + a_.state_names.bytes() + a_.action_names.bytes() +
                         ends_.size() / 8;
+  for (const Label& label : a_.labels) total += held(label.states);
+  for (const RewardStructure& other : a_.other_rewards) {
+    total += held(other.reward) + held(other.outcome_reward);
+  }
   if (a_.layout) total += held(a_.layout->cell) + held(a_.layout->direction);
   return total;
 }

@@ -36,6 +36,19 @@ struct Layout {
   std::optional<Frame> frame{};
 };
 
+/// A named set of states, as model checkers keep them ("goal", "init", "deadlock").
+struct Label {
+  std::string name;
+  std::vector<State> states;  ///< ascending, each once
+};
+
+/// A named law of rewards beside the one in use; forms as MdpArrays::reward and outcome_reward.
+struct RewardStructure {
+  std::string name;
+  std::vector<double> reward;          ///< per choice: expected reward; may be empty as there
+  std::vector<double> outcome_reward;  ///< per outcome; empty = the choice's reward for each
+};
+
 /// The arrays of an Mdp. Indices: a state's choices are choice_begin[s] .. choice_begin[s+1]; a
 /// choice's outcomes are outcome_begin[c] .. outcome_begin[c+1].
 struct MdpArrays {
@@ -54,6 +67,9 @@ struct MdpArrays {
   std::vector<State> terminal;            ///< declared terminal, ascending; may have choices
   Names state_names;
   Names action_names;
+  std::vector<Label> labels;                   ///< by name, each name once
+  std::string reward_name;                     ///< of the rewards in use; may be empty
+  std::vector<RewardStructure> other_rewards;  ///< each name once, none is reward_name
   double discount = 1.0;
   /// A game of two who move in turn: every move that does not end it passes the turn. Values and
   /// rewards are those of the player to move, so that what follows counts -discount (negamax).
@@ -124,6 +140,9 @@ class Mdp {
   std::string state_name(State s) const { return a_.state_names[s]; }
   std::string action_name(std::uint64_t choice) const { return a_.action_names[a_.action[choice]]; }
   std::optional<State> find_state(std::string_view name) const;
+  /// The label, or structure of rewards beside the one in use, of that name; nullptr = none.
+  const Label* find_label(std::string_view name) const;
+  const RewardStructure* find_rewards(std::string_view name) const;
   const Layout* layout() const { return a_.layout ? &*a_.layout : nullptr; }
   const MdpArrays& arrays() const { return a_; }
 
