@@ -34,6 +34,7 @@
 #include "quoll/base/random.hpp"
 #include "quoll/env/dice.hpp"
 #include "quoll/env/environment.hpp"
+#include "quoll/env/lane_dice.hpp"
 #include "quoll/env/world.hpp"
 
 namespace quoll {
@@ -117,43 +118,6 @@ constexpr bool complete() {
   }
   return Dynamics<D>;
 }
-
-// One stream for starts and one for steps of each lane.
-struct OwnDice {
-  std::vector<Rng> steps, starts;
-
-  explicit OwnDice(const Lanes& lanes) {
-    for (std::uint32_t lane = 0; lane < lanes.count; ++lane) {
-      steps.push_back(stream(lanes.seed, "world", lane));
-      starts.push_back(stream(lanes.seed, "start", lane));
-    }
-  }
-  Rng& of_start(std::size_t lane) { return starts[lane]; }
-  Rng& of_step(std::size_t lane) { return steps[lane]; }
-  void persist(Archive& archive, std::size_t lane) {
-    archive("dice", steps[lane]);
-    archive("start_dice", starts[lane]);
-  }
-  bool good() const { return true; }
-};
-
-// One generator of each lane for both; lane i is seeded as Gymnasium seeds the i-th of a vector.
-struct OneGuest {
-  std::vector<GuestDice> dice;
-
-  explicit OneGuest(const Lanes& lanes) {
-    for (std::uint32_t lane = 0; lane < lanes.count; ++lane) {
-      if (lanes.draws && lane == 0)
-        dice.emplace_back(lanes.draws);
-      else
-        dice.emplace_back(lanes.seed + lane);
-    }
-  }
-  GuestDice& of_start(std::size_t lane) { return dice[lane]; }
-  GuestDice& of_step(std::size_t lane) { return dice[lane]; }
-  void persist(Archive& archive, std::size_t lane) { archive("dice", dice[lane]); }
-  bool good() const { return dice[0].good(); }
-};
 
 template <Dynamics D, class DiceOfLanes>
 class Batch final : public Environment, private Inspector {
@@ -285,10 +249,10 @@ template <class D>
 std::unique_ptr<Environment> batch(D dynamics, const Lanes& lanes,
                                    Seeding seeding = Seeding::quoll) {
   if constexpr (detail::complete<D>()) {
-    if (lanes.draws || seeding == Seeding::gymnasium) {
-      return std::make_unique<detail::Batch<D, detail::OneGuest>>(std::move(dynamics), lanes);
-    }
-    return std::make_unique<detail::Batch<D, detail::OwnDice>>(std::move(dynamics), lanes);
+    return with_dice(lanes, seeding, [&](auto type) -> std::unique_ptr<Environment> {
+      using DiceOfLanes = typename decltype(type)::type;
+      return std::make_unique<detail::Batch<D, DiceOfLanes>>(std::move(dynamics), lanes);
+    });
   }
   return nullptr;
 }

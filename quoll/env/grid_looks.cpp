@@ -9,32 +9,6 @@
 namespace quoll {
 namespace {
 
-// The part of the grid that is shown, and which state stands in each of its cells.
-struct Window : GridWindow {
-  std::vector<State> state;  // rows x columns; no_state = a wall
-
-  static constexpr State no_state = ~State{0};
-  State in(std::uint32_t row, std::uint32_t column) const {
-    return state[std::size_t{row} * columns + column];
-  }
-};
-
-Window window(const Mdp& mdp, State at, const GridWindow& shown) {
-  const Layout& layout = *mdp.layout();
-  Window view{shown, {}};
-  view.state.assign(std::size_t{view.rows} * view.columns, Window::no_state);
-  for (State s = 0; s < mdp.states(); ++s) {
-    const std::uint32_t row = layout.cell[s] / layout.columns - view.top;
-    const std::uint32_t column = layout.cell[s] % layout.columns - view.left;
-    if (row < view.rows && column < view.columns) {
-      view.state[std::size_t{row} * view.columns + column] = s;
-    }
-  }
-  view.state[std::size_t{layout.cell[at] / layout.columns - view.top} * view.columns +
-             (layout.cell[at] % layout.columns - view.left)] = at;
-  return view;
-}
-
 // Per state what stands in its cell; ends are told apart by the largest reward of a move into them.
 std::string letters(const Mdp& mdp) {
   constexpr double none = -std::numeric_limits<double>::infinity();
@@ -61,39 +35,41 @@ std::string letters(const Mdp& mdp) {
 
 }  // namespace
 
-std::string grid_state_text(const Mdp& mdp, State at) {
-  const Layout& layout = *mdp.layout();
-  const Window view =
-      window(mdp, at, grid_window(layout.rows, layout.columns, layout.cell[at], 100, 160));
-  const std::string letter = letters(mdp);
+GridLooks::GridLooks(const Mdp& mdp) : layout_(*mdp.layout()) {
+  letters_.assign(std::size_t{layout_.rows} * layout_.columns, '#');
+  const std::string of_state = letters(mdp);
+  for (State s = 0; s < mdp.states(); ++s) letters_[layout_.cell[s]] = of_state[s];
+}
+
+std::string GridLooks::text(State at) const {
+  const std::uint32_t agent = layout_.cell[at];
+  const GridWindow view = grid_window(layout_.rows, layout_.columns, agent, 100, 160);
   std::string text;
   for (std::uint32_t row = 0; row < view.rows; ++row) {
-    for (std::uint32_t column = 0; column < view.columns; ++column) {
-      const State s = view.in(row, column);
-      text += s == at ? '@' : s == Window::no_state ? '#' : letter[s];
+    const std::size_t first = std::size_t{view.top + row} * layout_.columns + view.left;
+    for (std::size_t cell = first; cell < first + view.columns; ++cell) {
+      text += cell == agent ? '@' : letters_[cell];
     }
     text += '\n';
   }
   return text;
 }
 
-Drawing grid_state_drawing(const Mdp& mdp, State at) {
-  const Layout& layout = *mdp.layout();
-  const Window view =
-      window(mdp, at, grid_window(layout.rows, layout.columns, layout.cell[at], 60, 60));
-  const std::string letter = letters(mdp);
+Drawing GridLooks::drawing(State at) const {
+  const std::uint32_t agent = layout_.cell[at];
+  const GridWindow view = grid_window(layout_.rows, layout_.columns, agent, 60, 60);
   Drawing drawing{static_cast<double>(view.columns), static_cast<double>(view.rows), {}};
   for (std::uint32_t row = 0; row < view.rows; ++row) {
     for (std::uint32_t column = 0; column < view.columns; ++column) {
-      const State s = view.in(row, column);
-      const char what = s == Window::no_state ? '#' : letter[s];
+      const std::size_t cell = std::size_t{view.top + row} * layout_.columns + view.left + column;
+      const char what = letters_[cell];
       const Ink ink = what == '#'   ? Ink::wall
                       : what == 'G' ? Ink::goal
                       : what == 'X' ? Ink::danger
                                     : Ink::floor;
       constexpr double gap = 0.02;
       drawing.box(ink, column + gap, row + gap, 1 - 2 * gap, 1 - 2 * gap);
-      if (s == at) drawing.circle(Ink::agent, column + 0.5, row + 0.5, 0.32);
+      if (cell == agent) drawing.circle(Ink::agent, column + 0.5, row + 0.5, 0.32);
     }
   }
   return drawing;

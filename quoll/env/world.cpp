@@ -20,11 +20,7 @@ World to_world(std::string name, Mdp mdp, Looks looks, std::uint64_t episode_ste
   world.traits.states = mdp.states();
   world.traits.reward_bounds = mdp.reward_bounds();
   world.mdp = std::make_shared<const Mdp>(std::move(mdp));
-  world.make = [model = world.mdp, seen = std::make_shared<const Looks>(std::move(looks)),
-                episode_steps, seeding](Lanes lanes) {
-    if (lanes.episode_steps == 0) lanes.episode_steps = episode_steps;
-    return mdp_environment(model, lanes, seen, seeding);
-  };
+  world.make = mdp_environments(world.mdp, std::move(looks), episode_steps, seeding);
   return world;
 }
 

@@ -7,6 +7,14 @@
 namespace quoll {
 
 UniformPolicy uniform_policy_of(const World& world) {
+  if (world.mdp) {
+    std::vector<Action> counts(world.mdp->states());
+    for (State s = 0; s < counts.size(); ++s) {
+      counts[s] = world.mdp->terminal(s) ? 0 : world.mdp->actions(s);
+    }
+    const Action most = *std::max_element(counts.begin(), counts.end());
+    return UniformPolicy(std::move(counts), most);
+  }
   const std::unique_ptr<Environment> environment = world.make({});
   const Spaces spaces = environment->spaces();
   std::vector<Action> counts(spaces.states);

@@ -118,7 +118,7 @@ struct Lane {
 TEST(MdpEnvironment, DrawsLikeTheTable) {
   const auto mdp = std::make_shared<const Mdp>(fork(0.2, 0.3, 0.5));
   const auto table = stochastic_table<double>(*mdp, {0, mdp->choices()});
-  const auto environment = mdp_environment(mdp, {1, 9, 0, nullptr});
+  const auto environment = mdp_environments(mdp)({1, 9, 0, nullptr});
   Rng rng = stream(9, "world");
   Lane lane;
   for (int i = 0; i < 1000; ++i) {
@@ -134,14 +134,14 @@ TEST(MdpEnvironment, DrawsLikeTheTable) {
 
 TEST(MdpEnvironment, SaysHowManyActionsAStateHas) {
   const auto mdp = std::make_shared<const Mdp>(fork(0.2, 0.3, 0.5));
-  const auto environment = mdp_environment(mdp, {});
+  const auto environment = mdp_environments(mdp)({});
   EXPECT_EQ(environment->actions(*mdp->find_state("L")), 1u);
   EXPECT_EQ(environment->actions(*mdp->find_state("R")), 0u);
 }
 
 TEST(MdpEnvironment, InAnEndNothingHappensButTheDraw) {
   const auto mdp = std::make_shared<const Mdp>(fork(0.2, 0.3, 0.5));
-  const auto left = mdp_environment(mdp, {}), right = mdp_environment(mdp, {});
+  const auto left = mdp_environments(mdp)({}), right = mdp_environments(mdp)({});
   Lane a, b;
   a.state = *mdp->find_state("R");
   Experience now = a.columns();
@@ -158,6 +158,27 @@ TEST(MdpEnvironment, InAnEndNothingHappensButTheDraw) {
     Experience other = b.columns();
     right->step(other);
     EXPECT_EQ(a.next, b.next);
+  }
+}
+
+TEST(MdpEnvironment, EnvironmentsOfOneMakerShareTheModelAndNothingElse) {
+  const auto mdp = std::make_shared<const Mdp>(fork(0.2, 0.3, 0.5));
+  const auto make = mdp_environments(mdp, {}, 3);
+  const auto one = make({1, 9, 0, nullptr}), other = make({1, 9, 0, nullptr});
+  const auto alone = mdp_environments(mdp)({1, 9, 3, nullptr});
+  Lane a, b, c;
+  for (int i = 0; i < 100; ++i) {
+    a.state = b.state = c.state = 0;
+    Experience now = a.columns();
+    one->step(now);
+    now = b.columns();
+    alone->step(now);
+    ASSERT_EQ(a.next, b.next);
+    ASSERT_EQ(a.feedback.truncated, i == 2);  // the limit of the maker
+    ASSERT_EQ(b.feedback.truncated, i == 2);
+    if (i % 2 == 1) continue;
+    now = c.columns();
+    other->step(now);  // takes draws of its own
   }
 }
 

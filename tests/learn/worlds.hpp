@@ -72,7 +72,7 @@ inline World lottery() {
 /// The same world as something that can only be acted in.
 inline World without_model(World world) {
   world.name += " without a model";
-  world.make = [mdp = world.mdp](const Lanes& lanes) { return mdp_environment(mdp, lanes); };
+  world.make = mdp_environments(world.mdp);
   world.mdp.reset();
   return world;
 }
