@@ -20,6 +20,7 @@ extern const WorldEntry forest_world;
 extern const WorldEntry frozen_lake_world;
 extern const WorldEntry gamblers_problem_world;
 extern const WorldEntry garnet_world;
+extern const WorldEntry gridworld_world;
 extern const WorldEntry inventory_world;
 extern const WorldEntry jacks_car_rental_world;
 extern const WorldEntry krk_world;
@@ -56,6 +57,7 @@ constexpr const WorldEntry* entries[] = {
     &frozen_lake_world,
     &gamblers_problem_world,
     &garnet_world,
+    &gridworld_world,
     &inventory_world,
     &jacks_car_rental_world,
     &krk_world,
