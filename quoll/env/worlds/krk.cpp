@@ -5,14 +5,20 @@
 //
 // defender=optimal: Black takes the rook if possible, else puts off mate longest, by the lowest
 // square among equals; the world is deterministic. defender=random: a uniformly random legal move.
+// defender=learning: Black learns too. A step is one piece's move and passes the turn, values are
+// those of the player to move (negamax), and 223,660 states with Black to move, named
+// "Kc3 Ra1 kd5 black", follow White's; their actions are "kd6" and the like. A step is half a move
+// and counts sqrt(discount), so that White's positions are worth what they are against the best
+// defender.
 // start=any: each of the 175,168 positions, equally likely; longest: the 916 with mate in 16.
-// Games are cut off after 50 moves, as chess calls them drawn.
+// Games are cut off after 50 moves of each side, as chess calls them drawn.
 //
 // Draws: a start takes one number; a step takes one, used with the random defender only, whose
 // replies are ordered by square, a1 first. JSON state: the position's name.
 //
 // Source: the rules of chess; the tables are solved here (krk_endgame.hpp).
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -28,8 +34,8 @@ namespace {
 
 using krk::Placement;
 
-enum class Defender : std::uint8_t { optimal, random };
-constexpr std::string_view defender_names[] = {"optimal", "random"};
+enum class Defender : std::uint8_t { optimal, random, learning };
+constexpr std::string_view defender_names[] = {"optimal", "random", "learning"};
 enum class Starts : std::uint8_t { any, longest };
 constexpr std::string_view start_names[] = {"any", "longest"};
 
@@ -39,7 +45,8 @@ struct KrkSettings {
   double discount = 0.99;
 
   void describe(Describer& describe) {
-    describe.choice("defender", defender, defender_names, "how Black, with the bare king, replies");
+    describe.choice("defender", defender, defender_names,
+                    "how Black, with the bare king, replies; learning: both sides learn");
     describe.choice("start", start, start_names,
                     "any position with White to move, or those with the longest mate");
     describe("discount", discount, std::numeric_limits<double>::denorm_min(), 1.0,
@@ -49,59 +56,84 @@ struct KrkSettings {
 
 constexpr std::string_view end_names[] = {"mate", "stalemate", "rook lost"};
 
-// The tables become a model: states are the legal placements in order, then the ends.
+// What the states are: legal placements with White to move, then those with Black to move if Black
+// learns, then the ends.
+struct Positions {
+  std::vector<unsigned> placement;  // per state that is no end
+  State blacks = 0;                 // the first state with Black to move
+  bool black_moves(State s) const { return s >= blacks; }
+};
+
 class Compiler {
  public:
   explicit Compiler(const KrkSettings& settings)
-      : settings_(settings), endgame_(krk::solve_endgame()), state_(krk::placements) {
-    for (unsigned index = 0; index < krk::placements; ++index) {
-      if (endgame_.mate_in[index] == krk::illegal) continue;
-      state_[index] = static_cast<State>(placement_.size());
-      placement_.push_back(index);
+      : settings_(settings), endgame_(krk::solve_endgame()) {
+    number(white_, [&](unsigned index) { return endgame_.mate_in[index] != krk::illegal; });
+    positions_.blacks = static_cast<State>(positions_.placement.size());
+    if (learning()) {
+      number(black_, [&](unsigned index) {
+        const std::uint8_t fate = endgame_.lost_in[index];
+        return fate != 0 && fate != krk::stalemate && fate != krk::illegal;
+      });
     }
-    mate_ = static_cast<State>(placement_.size());
+    mate_ = static_cast<State>(positions_.placement.size());
   }
 
   Result<Mdp> model() {
     name_everything();
     arrays_.choice_begin.push_back(0);
     if (random()) arrays_.outcome_begin.push_back(0);
-    for (const unsigned index : placement_) {
-      const Placement at = Placement::of(index);
-      for (const unsigned to : krk::king_moves(at)) {
-        add_choice(to, {to, at.rook, at.enemy});
-      }
-      for (const unsigned to : krk::rook_moves(at)) {
-        add_choice(64 + to, {at.king, to, at.enemy});
+    for (State s = 0; s < mate_; ++s) {
+      const Placement at = Placement::of(positions_.placement[s]);
+      if (positions_.black_moves(s)) {
+        for (const unsigned to : krk::enemy_moves(at)) add_reply(to, at);
+      } else {
+        for (const unsigned to : krk::king_moves(at)) add_choice(to, {to, at.rook, at.enemy});
+        for (const unsigned to : krk::rook_moves(at)) add_choice(64 + to, {at.king, to, at.enemy});
+        const bool longest = endgame_.mate_in[at.index()] == krk::longest;
+        if (longest || settings_.start == Starts::any) arrays_.start.push_back(s);
       }
       arrays_.choice_begin.push_back(arrays_.action.size());
-      if (settings_.start == Starts::longest && endgame_.mate_in[index] == krk::longest) {
-        arrays_.start.push_back(state_[index]);
-      }
     }
     for (std::size_t end = 0; end < std::size(end_names); ++end) {
       arrays_.choice_begin.push_back(arrays_.action.size());
     }
-    arrays_.discount = settings_.discount;
+    arrays_.discount = learning() ? std::sqrt(settings_.discount) : settings_.discount;
+    arrays_.alternating = learning();
     return Mdp::make(std::move(arrays_));
   }
 
-  std::vector<unsigned> placements() && { return std::move(placement_); }
+  Positions positions() && { return std::move(positions_); }
 
  private:
   bool random() const { return settings_.defender == Defender::random; }
+  bool learning() const { return settings_.defender == Defender::learning; }
+
+  void number(std::vector<State>& state, const auto& is_state) {
+    state.resize(krk::placements);
+    for (unsigned index = 0; index < krk::placements; ++index) {
+      if (!is_state(index)) continue;
+      state[index] = static_cast<State>(positions_.placement.size());
+      positions_.placement.push_back(index);
+    }
+  }
 
   void name_everything() {
     std::string text;
     std::vector<std::uint64_t> begin{0};
-    const auto add = [&](std::string_view name) {
-      text += name;
-      begin.push_back(text.size());
-    };
-    for (const unsigned index : placement_) add(krk::name_of(Placement::of(index)));
-    for (const std::string_view end : end_names) add(end);
+    const auto end_name = [&] { begin.push_back(text.size()); };
+    for (State s = 0; s < mate_; ++s) {
+      text += krk::name_of(Placement::of(positions_.placement[s]));
+      if (positions_.black_moves(s)) text += " black";
+      end_name();
+    }
+    for (const std::string_view end : end_names) {
+      text += end;
+      end_name();
+    }
     arrays_.state_names = Names::stored(std::move(text), std::move(begin));
-    for (const char piece : {'K', 'R'}) {
+    for (const char piece : {'K', 'R', 'k'}) {
+      if (piece == 'k' && !learning()) break;
       for (unsigned to = 0; to < 64; ++to) {
         arrays_.action_names.push_back(piece + krk::name_of_square(to));
       }
@@ -117,6 +149,8 @@ class Compiler {
       add_outcome(mate_, 1.0);
     } else if (fate == krk::stalemate) {
       add_outcome(mate_ + 1, 1.0);
+    } else if (learning()) {
+      add_outcome(black_[at.index()], 1.0);
     } else if (random()) {
       const krk::Squares replies = krk::enemy_moves(at);
       for (const unsigned to : replies) add_outcome(after(at, to), 1.0 / replies.count);
@@ -125,8 +159,14 @@ class Compiler {
     }
     if (random()) arrays_.outcome_begin.push_back(arrays_.next.size());
   }
+  // Black, who learns, moves from `at` to a square.
+  void add_reply(unsigned to, Placement at) {
+    arrays_.action.push_back(128 + to);
+    arrays_.reward.push_back(0.0);
+    add_outcome(after(at, to), 1.0);
+  }
   State after(Placement at, unsigned reply) const {
-    return reply == at.rook ? mate_ + 2 : state_[Placement{at.king, at.rook, reply}.index()];
+    return reply == at.rook ? mate_ + 2 : white_[Placement{at.king, at.rook, reply}.index()];
   }
   void add_outcome(State next, double probability) {
     arrays_.next.push_back(next);
@@ -135,9 +175,9 @@ class Compiler {
 
   KrkSettings settings_;
   krk::Endgame endgame_;
-  std::vector<State> state_;         // per placement with White to move
-  std::vector<unsigned> placement_;  // per state
-  State mate_ = 0;                   // the first of the ends
+  Positions positions_;
+  std::vector<State> white_, black_;  // per placement, with that side to move
+  State mate_ = 0;                    // the first of the ends
   MdpArrays arrays_;
 };
 
@@ -185,17 +225,23 @@ Drawing board_drawing(Placement at) {
   return drawing;
 }
 
-Looks looks_of(std::vector<unsigned> placements) {
-  const auto shared = std::make_shared<const std::vector<unsigned>>(std::move(placements));
-  Looks looks;
-  looks.text = [shared](State state) {
-    if (state >= shared->size()) return std::string(end_names[state - shared->size()]) + "\n";
-    return board_text(Placement::of((*shared)[state]));
+Looks looks_of(Positions positions) {
+  const auto shared = std::make_shared<const Positions>(std::move(positions));
+  const auto end_of = [shared](State state) -> std::string_view {
+    const std::size_t count = shared->placement.size();
+    return state < count ? std::string_view() : end_names[state - count];
   };
-  looks.drawing = [shared](State state) {
-    if (state < shared->size()) return board_drawing(Placement::of((*shared)[state]));
+  Looks looks;
+  looks.text = [shared, end_of](State state) {
+    if (const std::string_view end = end_of(state); !end.empty()) return std::string(end) + "\n";
+    return board_text(Placement::of(shared->placement[state])) +
+           (shared->black_moves(state) ? "black to move\n" : "");
+  };
+  looks.drawing = [shared, end_of](State state) {
+    const std::string_view end = end_of(state);
+    if (end.empty()) return board_drawing(Placement::of(shared->placement[state]));
     Drawing drawing = board();
-    drawing.write(Ink::line, 5.0, 4.0, 1.0, std::string(end_names[state - shared->size()]));
+    drawing.write(Ink::line, 5.0, 4.0, 1.0, std::string(end));
     return drawing;
   };
   return looks;
@@ -207,7 +253,8 @@ Result<World> make(const Parameters& parameters) {
   Compiler compiler(*settings);
   Result<Mdp> mdp = compiler.model();
   if (!mdp) return mdp.error();
-  return to_world("krk", std::move(*mdp), looks_of(std::move(compiler).placements()), 50);
+  const std::uint64_t limit = settings->defender == Defender::learning ? 100 : 50;
+  return to_world("krk", std::move(*mdp), looks_of(std::move(compiler).positions()), limit);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
@@ -193,6 +194,56 @@ TEST(Krk, TheLongestStarts) {
   EXPECT_EQ(optimal().mdp->start().size(), 175'168u);
 }
 
+const World& learning() {
+  static const World world = krk_world_with({{"defender", "learning"}});
+  return world;
+}
+
+TEST(Krk, BlackLearnsWithMovesOfItsOwn) {
+  // Of the 223,944 positions with Black to move 216 are mates and 68 stalemates: ends.
+  EXPECT_EQ(learning().mdp->states(), 175'168u + 223'660u + 3u);
+  EXPECT_EQ(learning().traits.players, 2u);
+  EXPECT_TRUE(learning().traits.deterministic);
+  EXPECT_EQ(learning().mdp->start().size(), 175'168u);
+  EXPECT_EQ(moves(learning(), "Kd4 Ra1 kd6"), moves(optimal(), "Kd4 Ra1 kd6"));
+  EXPECT_EQ(after(learning(), "Ka1 Rh4 kd5", "Re4"), "Ka1 Re4 kd5 black");
+  EXPECT_EQ(moves(learning(), "Ka1 Re4 kd5 black"), "ke4 kc5 kc6 kd6 ");
+  EXPECT_EQ(after(learning(), "Ka1 Re4 kd5 black", "ke4"), "rook lost");
+  EXPECT_EQ(after(learning(), "Ka1 Re4 kd5 black", "kc6"), "Ka1 Re4 kc6");
+  EXPECT_EQ(after(learning(), "Kb6 Rh1 kb8", "Rh8"), "mate");
+  EXPECT_EQ(after(learning(), "Kb6 Rc7 ka8", "Rb7"), "stalemate");
+  const auto environment = learning().make({1, 1, 0, nullptr});
+  const State black = state(learning(), "Ka1 Re4 kd5 black");
+  EXPECT_TRUE(environment->inspector()->text(0, black).ends_with("\nblack to move\n"));
+}
+
+// What the tables say solves V(s) = max over moves of reward - d V(next), d = sqrt(0.99): White's
+// mate in n is worth d^(2 (n - 1)) = 0.99^(n - 1), Black's loss in n moves -d^(2 n - 1).
+TEST(Krk, TheKnownValuesAreThoseOfBothSides) {
+  const Mdp& mdp = *learning().mdp;
+  const double d = mdp.discount();
+  EXPECT_EQ(d, std::sqrt(0.99));
+  std::vector<double> value(mdp.states());
+  State s = 0;
+  for (unsigned index = 0; index < krk::placements; ++index) {
+    const std::uint8_t n = endgame().mate_in[index];
+    if (n != krk::illegal) value[s++] = std::pow(d, 2 * (n - 1));
+  }
+  for (unsigned index = 0; index < krk::placements; ++index) {
+    const std::uint8_t n = endgame().lost_in[index];
+    if (n == 0 || n == krk::stalemate || n == krk::illegal) continue;
+    value[s++] = n == krk::rook_falls ? 0.0 : -std::pow(d, 2 * n - 1);
+  }
+  ASSERT_EQ(s + 3, mdp.states());
+  for (State at = 0; at < s; ++at) {
+    double best = -2.0;
+    for (std::uint64_t c = mdp.choice_begin(at); c < mdp.choice_end(at); ++c) {
+      best = std::max(best, mdp.reward(c) + mdp.carry(d) * value[mdp.next(c)]);
+    }
+    ASSERT_NEAR(best, value[at], 1e-14) << mdp.state_name(at);
+  }
+}
+
 TEST(Krk, LooksLikeABoard) {
   const auto environment = optimal().make({1, 1, 0, nullptr});
   Inspector* const look = environment->inspector();
@@ -205,7 +256,7 @@ TEST(Krk, LooksLikeABoard) {
 }
 
 TEST(Krk, RefusesOtherDefenders) {
-  EXPECT_FALSE(find_world("krk", {{"defender", "learning"}}));
+  EXPECT_FALSE(find_world("krk", {{"defender", "sleeping"}}));
   EXPECT_FALSE(find_world("krk", {{"discount", "1.5"}}));
 }
 
