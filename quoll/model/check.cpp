@@ -97,17 +97,24 @@ void underflow(std::vector<Finding>& findings, const Mdp& mdp, std::uint32_t lon
        0});
 }
 
+// What readers noticed: outcomes written twice, and whatever else a file says that the model says
+// in another way.
 void remarks(std::vector<Finding>& findings, const std::vector<std::string>& list) {
-  if (list.empty()) return;
-  Finding finding{Finding::Severity::warning, "duplicate", list[0], list.size(), {}, 0};
-  for (std::size_t i = 0; i < std::min(list.size(), most_names); ++i) {
-    finding.names.push_back(list[i]);
-    if (i > 0) finding.sentence += "; " + list[i];
+  Finding duplicates{Finding::Severity::warning, "duplicate", "", 0, {}, 0};
+  Finding others{Finding::Severity::warning, "remark", "", 0, {}, 0};
+  for (const std::string& sentence : list) {
+    Finding& finding = sentence.ends_with("stands twice") ? duplicates : others;
+    if (++finding.count > most_names) continue;
+    finding.names.push_back(sentence);
+    finding.sentence += (finding.count > 1 ? "; " : "") + sentence;
   }
-  if (list.size() > most_names) {
-    finding.sentence += fmt::format(" and {} more", grouped(list.size() - most_names));
+  for (Finding* finding : {&duplicates, &others}) {
+    if (finding->count == 0) continue;
+    if (finding->count > most_names) {
+      finding->sentence += fmt::format(" and {} more", grouped(finding->count - most_names));
+    }
+    findings.push_back(std::move(*finding));
   }
-  findings.push_back(std::move(finding));
 }
 
 }  // namespace

@@ -28,9 +28,9 @@ bool first_fault(const MdpArrays& arrays, Error& error);
 
 /// Findings about a valid model: "no-end", "gaining-cycle" (errors, at discount 1:
 /// undiscounted_fault), "unreachable", "dead-end" (reached states from which no end can be reached,
-/// if there are ends), "duplicate" (the reader's remarks), "underflow" (a reward at the end of the
-/// longest shortest path to an end, or from the start if there is none, counts less than the
-/// smallest normal float).
+/// if there are ends), "duplicate" and "remark" (the reader's remarks), "underflow" (a reward at
+/// the end of the longest shortest path to an end, or from the start if there is none, counts less
+/// than the smallest normal float).
 std::vector<Finding> check(const Mdp& mdp);
 
 }  // namespace quoll

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "quoll/model/check.hpp"
 
@@ -36,6 +38,10 @@ class Scan {
     if (going_) discount();
     if (going_) rows();
     if (going_) starts();
+    if (going_) names();
+    for (const RewardStructure& other : a_.other_rewards) {
+      if (going_) rewards(other);
+    }
   }
 
  private:
@@ -97,6 +103,15 @@ class Scan {
       length("start_probability", a_.start_probability.size(), a_.start.size());
     }
     if (a_.layout) length("layout.cell", a_.layout->cell.size(), states_);
+    for (const RewardStructure& other : a_.other_rewards) {
+      const std::string name = "rewards " + other.name;
+      if (!other.outcome_reward.empty()) {
+        length((name + " per outcome").c_str(), other.outcome_reward.size(), outcomes);
+      }
+      if (!other.reward.empty() || other.outcome_reward.empty()) {
+        length((name + " per choice").c_str(), other.reward.size(), choices);
+      }
+    }
     if (going_) indices();
   }
 
@@ -111,21 +126,22 @@ class Scan {
         return misfit(fmt::format("action number {} of {}", action, a_.action_names.size()));
       }
     }
-    for (const auto* list : {&a_.start, &a_.terminal}) {
-      const char* name = list == &a_.start ? "start" : "terminal";
-      for (std::size_t i = 0; i < list->size(); ++i) {
-        if ((*list)[i] >= states_) {
-          return misfit(fmt::format("array {}: state number {} of {}", name, (*list)[i], states_));
-        }
-        if (i > 0 && (*list)[i - 1] >= (*list)[i]) {
-          return misfit(fmt::format("array {}: states must ascend", name));
-        }
-      }
-    }
-    if (!a_.layout) return;
+    ascending("array start", a_.start);
+    ascending("array terminal", a_.terminal);
+    for (const Label& label : a_.labels) ascending("label " + label.name, label.states);
+    if (!going_ || !a_.layout) return;
     const std::uint64_t cells = std::uint64_t{a_.layout->rows} * a_.layout->columns;
     for (const std::uint32_t cell : a_.layout->cell) {
       if (cell >= cells) return misfit(fmt::format("layout: cell {} of {}", cell, cells));
+    }
+  }
+
+  void ascending(const std::string& name, const std::vector<State>& list) {
+    for (std::size_t i = 0; i < list.size() && going_; ++i) {
+      if (list[i] >= states_) {
+        return misfit(fmt::format("{}: state number {} of {}", name, list[i], states_));
+      }
+      if (i > 0 && list[i - 1] >= list[i]) misfit(name + ": states must ascend");
     }
   }
 
@@ -198,6 +214,42 @@ class Scan {
     for (State s = 0; s < states_; ++s) with_moves += a_.choice_begin[s] < a_.choice_begin[s + 1];
     for (const State s : a_.terminal) declared += a_.choice_begin[s] < a_.choice_begin[s + 1];
     if (with_moves == declared) fault("start", "", "no start: every state is an end");
+  }
+
+  // Whatever is chosen by name stands under it once.
+  void names() {
+    std::vector<std::string> labels, structures;
+    if (!a_.reward_name.empty()) structures.push_back(a_.reward_name);
+    for (const Label& label : a_.labels) labels.push_back(label.name);
+    for (const RewardStructure& other : a_.other_rewards) structures.push_back(other.name);
+    once("label", std::move(labels));
+    once("reward structure", std::move(structures));
+  }
+
+  void once(const char* what, std::vector<std::string> names) {
+    std::sort(names.begin(), names.end());
+    for (std::size_t i = 0; i < names.size() && going_; ++i) {
+      if (names[i].empty()) fault("name", "", fmt::format("a {} without a name", what));
+      if (i == 0 || names[i] != names[i - 1] || !going_) continue;
+      fault("name", "", fmt::format("the {} {} stands twice", what, names[i]));
+    }
+  }
+
+  void rewards(const RewardStructure& other) {
+    const std::vector<double>& list =
+        other.outcome_reward.empty() ? other.reward : other.outcome_reward;
+    const bool per_outcome = !other.outcome_reward.empty();
+    for (State s = 0; s < states_; ++s) {
+      for (std::uint64_t c = a_.choice_begin[s]; c < a_.choice_begin[s + 1]; ++c) {
+        const std::uint64_t begin =
+            per_outcome && !a_.outcome_begin.empty() ? a_.outcome_begin[c] : c;
+        const std::uint64_t end =
+            per_outcome && !a_.outcome_begin.empty() ? a_.outcome_begin[c + 1] : c + 1;
+        for (std::uint64_t i = begin; i < end; ++i) {
+          if (going_) finite(s, c, list[i]);
+        }
+      }
+    }
   }
 
   const MdpArrays& a_;

@@ -316,11 +316,11 @@ TEST_F(CsvFile, AFileInBlocksGivesTheModelOfItsText) {
 
 TEST_F(CsvFile, RefusesEndlessLinesAndWhatIsNoFile) {
   write(header + std::string(3 << 20, 'x'));
-  EXPECT_EQ(message(read_csv_path(path_).error()),
+  EXPECT_EQ(message(read_csv_path(path_, {}).error()),
             path_ + ":2: expected a line of at most 1 MiB, found a longer one");
   const std::string folder = ::testing::TempDir();
-  EXPECT_NE(message(read_csv_path(folder).error()).find("this is a folder"), std::string::npos);
-  EXPECT_NE(message(read_csv_path(path_ + ".none").error()).find("No such file"),
+  EXPECT_NE(message(read_csv_path(folder, {}).error()).find("this is a folder"), std::string::npos);
+  EXPECT_NE(message(read_csv_path(path_ + ".none", {}).error()).find("No such file"),
             std::string::npos);
 }
 

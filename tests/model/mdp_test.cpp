@@ -210,6 +210,44 @@ TEST(Mdp, RefusesArraysThatDoNotFit) {
   EXPECT_EQ(refusal(a), "layout: cell 2 of 2");
 }
 
+TEST(Mdp, KeepsLabelsAndFurtherRewards) {
+  MdpArrays a = two_states();
+  a.labels = {{"goal", {1}}, {"none", {}}};
+  a.reward_name = "gold";
+  a.other_rewards = {{"time", {1.0, 1.0}, {}}, {"noise", {}, {2.0, 0.0, 3.0}}};
+  const auto mdp = Mdp::make(a);
+  ASSERT_TRUE(mdp) << message(mdp.error());
+  ASSERT_NE(mdp->find_label("goal"), nullptr);
+  EXPECT_EQ(mdp->find_label("goal")->states, std::vector<State>{1});
+  EXPECT_EQ(mdp->find_label("gaol"), nullptr);
+  ASSERT_NE(mdp->find_rewards("noise"), nullptr);
+  EXPECT_EQ(mdp->find_rewards("noise")->reward, (std::vector<double>{1.8, 3.0}));  // 0.9 * 2
+}
+
+TEST(Mdp, RefusesLabelsAndFurtherRewardsThatDoNotFit) {
+  const auto with = [](std::vector<Label> labels, std::vector<RewardStructure> rewards) {
+    MdpArrays a = two_states();
+    a.labels = std::move(labels);
+    a.reward_name = "gold";
+    a.other_rewards = std::move(rewards);
+    return refusal(std::move(a));
+  };
+  EXPECT_EQ(with({{"goal", {2}}}, {}), "label goal: state number 2 of 2");
+  EXPECT_EQ(with({{"goal", {1, 0}}}, {}), "label goal: states must ascend");
+  EXPECT_EQ(with({{"goal", {0, 0}}}, {}), "label goal: states must ascend");
+  EXPECT_EQ(with({{"goal", {}}, {"goal", {}}}, {}), "the label goal stands twice");
+  EXPECT_EQ(with({{"", {}}}, {}), "a label without a name");
+  EXPECT_EQ(with({}, {{"time", {1.0}, {}}}),
+            "array rewards time per choice: 1 entries, expected 2");
+  EXPECT_EQ(with({}, {{"time", {}, {1.0, 2.0}}}),
+            "array rewards time per outcome: 2 entries, expected 3");
+  EXPECT_EQ(with({}, {{"gold", {1.0, 2.0}, {}}}), "the reward structure gold stands twice");
+  EXPECT_EQ(with({}, {{"time", {1.0, INFINITY}, {}}}),
+            "state HALL, action wait: reward inf, expected a finite number");
+  EXPECT_EQ(with({}, {{"time", {}, {0.0, NAN, 0.0}}}),
+            "state HALL, action To-CAVE: reward nan, expected a finite number");
+}
+
 TEST(Mdp, KnowsOneZeroOnly) {
   MdpArrays a = two_states();
   a.reward = {-0.0, -1.0};

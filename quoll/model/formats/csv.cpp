@@ -380,7 +380,7 @@ Result<MdpArrays> read_csv(std::string_view content, const std::string& path) {
   return CsvReader(lines, path).read();
 }
 
-Result<MdpArrays> read_csv_path(const std::string& path) {
+Result<MdpArrays> read_csv_path(const std::string& path, const Parameters&) {
   auto lines = Lines::open(path);
   if (!lines) return lines.error();
   return CsvReader(*lines, path).read();

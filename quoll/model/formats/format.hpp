@@ -11,6 +11,12 @@
 
 namespace quoll {
 
+/// One of the files a model is written as.
+struct WrittenFile {
+  std::string path;
+  std::string content;
+};
+
 /// Readers hand out arrays that fit together but may still hold what Mdp::make refuses (a row that
 /// sums to 0.9, a reward that is not a number), so that check can report all of it at once.
 struct Format {
@@ -22,13 +28,17 @@ struct Format {
   /// The model as text that read_arrays() takes back; nullptr = cannot be written.
   Result<std::string> (*write)(const Mdp& mdp);
   /// Reads a file piece by piece, for formats whose files may be larger than memory has room for
-  /// twice; nullptr = read whole, then parsed.
-  Result<MdpArrays> (*read_path)(const std::string& path);
+  /// twice, or of which several make a model; nullptr = read whole, then parsed.
+  Result<MdpArrays> (*read_path)(const std::string& path, const Parameters& given);
   /// Instead of read_arrays for formats that say too little alone, and what --with may set for
   /// them; nullptr = no parameters.
   Result<MdpArrays> (*read_with)(std::string_view content, const std::string& path,
                                  const Parameters& given) = nullptr;
   std::vector<ParameterText> (*parameters)() = nullptr;
+  /// Instead of write for formats of several files: the one at `path` first, its companions, which
+  /// a reader finds beside it, after it.
+  Result<std::vector<WrittenFile>> (*write_files)(const Mdp& mdp,
+                                                  const std::string& path) = nullptr;
 };
 
 /// All formats, a hand-written constant table.
@@ -48,18 +58,37 @@ Result<Mdp> parse_model(std::string_view content, const std::string& path,
 Result<MdpArrays> parse_model_arrays(std::string_view content, const std::string& path,
                                      const Parameters& given = {});
 
+/// The files of a model in the format of `path`, which is the first of them; writes none. An Error
+/// if that format cannot be written, or not this model.
+Result<std::vector<WrittenFile>> write_model(const Mdp& mdp, const std::string& path);
+
 /// Refuses a model with a name that no reader would take back (quoll/model/letters.hpp).
 Result<void> proper_names(const Mdp& mdp);
+
+/// Refuses names of labels and rewards with quotation marks, for formats that put them between
+/// some.
+Result<void> quotable_names(const Mdp& mdp);
 
 Result<MdpArrays> read_toml(std::string_view content, const std::string& path);
 Result<std::string> write_toml(const Mdp& mdp);
 
 Result<MdpArrays> read_csv(std::string_view content, const std::string& path);
-Result<MdpArrays> read_csv_path(const std::string& path);
+Result<MdpArrays> read_csv_path(const std::string& path, const Parameters& given);
 Result<std::string> write_csv(const Mdp& mdp);
 
 Result<MdpArrays> read_grid(std::string_view content, const std::string& path);
 Result<std::string> write_grid(const Mdp& mdp);
+
+/// Explicit files of PRISM and Storm; their parts: quoll/model/formats/prism.hpp.
+Result<MdpArrays> read_prism(std::string_view content, const std::string& path,
+                             const Parameters& given);
+Result<MdpArrays> read_prism_path(const std::string& path, const Parameters& given);
+std::vector<ParameterText> prism_parameters();
+Result<std::vector<WrittenFile>> write_prism(const Mdp& mdp, const std::string& path);
+
+Result<MdpArrays> read_drn(std::string_view content, const std::string& path);
+Result<MdpArrays> read_drn_path(const std::string& path, const Parameters& given);
+Result<std::string> write_drn(const Mdp& mdp);
 
 /// Maps for robots; settings and model: quoll/model/terrain.hpp.
 Result<MdpArrays> read_moving_ai(std::string_view content, const std::string& path,

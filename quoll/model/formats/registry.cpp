@@ -1,5 +1,6 @@
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "quoll/base/file.hpp"
 #include "quoll/base/text.hpp"
@@ -10,7 +11,7 @@ namespace quoll {
 
 namespace {
 
-constexpr std::array<Format, 6> table{{
+constexpr auto table = std::to_array<Format>({
     {"toml", ".toml", "named states and actions, written by hand", read_toml, write_toml, nullptr},
     {"csv", ".csv", "one outcome per row: state,action,next_state,probability,reward", read_csv,
      write_csv, read_csv_path},
@@ -22,11 +23,23 @@ constexpr std::array<Format, 6> table{{
      nullptr, nullptr, read_ros_map, ros_map_parameters},
     {"pgm", ".pgm", "the image of such a map alone, with --with goal=x,y in pixels", nullptr,
      nullptr, nullptr, read_pgm_map, ros_map_parameters},
-}};
+    {"prism", ".tra",
+     "transitions of PRISM and Storm, with .sta, .lab, .srew and .trew beside them", nullptr,
+     nullptr, read_prism_path, read_prism, prism_parameters, write_prism},
+    {"drn", ".drn", "states, actions, labels and rewards of Storm in one file", read_drn, write_drn,
+     read_drn_path},
+});
 
 Error placed(Error error, const std::string& path) {
   if (error.file.empty()) error.file = path;
   return error;
+}
+
+template <class Named>
+Names names_of(const std::vector<Named>& list) {
+  Names names;
+  for (const Named& one : list) names.push_back(one.name);
+  return names;
 }
 
 Result<void> takes(const Format& format, const Parameters& given) {
@@ -68,7 +81,7 @@ Result<MdpArrays> read_model_arrays(const std::string& path, const Parameters& g
   if (!format) return format.error();
   if (const Result<void> fitting = takes(**format, given); !fitting) return fitting.error();
   if ((*format)->read_path != nullptr) {
-    Result<MdpArrays> arrays = (*format)->read_path(path);
+    Result<MdpArrays> arrays = (*format)->read_path(path, given);
     if (!arrays) return placed(arrays.error(), path);
     return arrays;
   }
@@ -106,6 +119,36 @@ Result<Mdp> parse_model(std::string_view content, const std::string& path,
   return mdp;
 }
 
+Result<std::vector<WrittenFile>> write_model(const Mdp& mdp, const std::string& path) {
+  const Result<const Format*> format = format_of(path);
+  if (!format) return format.error();
+  if ((*format)->write_files != nullptr) return (*format)->write_files(mdp, path);
+  if ((*format)->write == nullptr) {
+    return Error{path, 0, 0,
+                 "expected a format that can be written, which " +
+                     std::string((*format)->extension) + " is not",
+                 ""};
+  }
+  Result<std::string> content = (*format)->write(mdp);
+  if (!content) return placed(content.error(), path);
+  return std::vector<WrittenFile>{{path, *std::move(content)}};
+}
+
+Result<void> quotable_names(const Mdp& mdp) {
+  const MdpArrays& a = mdp.arrays();
+  std::vector<std::string_view> names{a.reward_name};
+  for (const Label& label : a.labels) names.push_back(label.name);
+  for (const RewardStructure& other : a.other_rewards) names.push_back(other.name);
+  for (const std::string_view name : names) {
+    if (name.find('"') == std::string_view::npos) continue;
+    return Error{
+        "", 0, 0,
+        "expected names of labels and rewards without quotation marks, found " + std::string(name),
+        ""};
+  }
+  return {};
+}
+
 Result<void> proper_names(const Mdp& mdp) {
   const auto proper = [](const Names& names, const std::string& what) -> Result<void> {
     for (std::uint64_t i = 0; i < names.size(); ++i) {
@@ -117,7 +160,11 @@ Result<void> proper_names(const Mdp& mdp) {
     return {};
   };
   const Result<void> states = proper(mdp.arrays().state_names, "state");
-  return states ? proper(mdp.arrays().action_names, "action") : states;
+  if (!states) return states;
+  const Result<void> actions = proper(mdp.arrays().action_names, "action");
+  if (!actions) return actions;
+  const Result<void> labels = proper(names_of(mdp.arrays().labels), "label");
+  return labels ? proper(names_of(mdp.arrays().other_rewards), "reward structure") : labels;
 }
 
 }  // namespace quoll
