@@ -6,15 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "bench/yardstick/mix.hpp"
 #include "quoll/model/mdp.hpp"
 
 namespace yardstick {
-
-inline std::uint64_t mixed(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
 
 // Every choice padded to `outcomes` thresholds in 32 bits: successor, end and reward by index.
 struct TableLoop {
@@ -52,8 +47,8 @@ struct TableLoop {
     }
     starts.assign(mdp.start().begin(), mdp.start().end());
     for (std::uint32_t i = 0; i < lanes; ++i) {
-      dice.push_back(mixed(i + 1));
-      coin.push_back(mixed(i + 1000003));
+      dice.push_back(mix(i + 1));
+      coin.push_back(mix(i + 1000003));
       state.push_back(starts[dice[i] % starts.size()]);
     }
     elapsed.resize(lanes);
@@ -66,9 +61,9 @@ struct TableLoop {
   std::uint64_t step() {
     std::uint64_t finished = 0;
     for (std::size_t i = 0; i < state.size(); ++i) {
-      const std::uint64_t bits = mixed(coin[i] += 0x9e3779b97f4a7c15ULL);
+      const std::uint64_t bits = mix(coin[i] += gamma);
       const auto action = static_cast<std::uint32_t>(((bits >> 32) * actions) >> 32);
-      const auto draw = static_cast<std::uint32_t>(mixed(dice[i] += 0x9e3779b97f4a7c15ULL) >> 32);
+      const auto draw = static_cast<std::uint32_t>(mix(dice[i] += gamma) >> 32);
       const Row& row = rows[state[i] * actions + action];
       const int k = (draw > row.threshold[0]) + (draw > row.threshold[1]);
       const std::uint32_t next = row.next[k];
@@ -79,7 +74,7 @@ struct TableLoop {
       if (ended[i] | cut[i]) {
         ++finished;
         elapsed[i] = 0;
-        state[i] = starts[((mixed(dice[i] ^ bits) >> 32) * starts.size()) >> 32];
+        state[i] = starts[((mix(dice[i] ^ bits) >> 32) * starts.size()) >> 32];
       }
     }
     return finished;

@@ -136,7 +136,7 @@ class Batch final : public Environment, private Inspector {
 
   void restart(std::span<const std::uint8_t> restart, Experience& now) override {
     for (std::size_t lane = 0; lane < positions_.size(); ++lane) {
-      if (!restart[lane]) continue;
+      if (!begins(restart, now, lane)) continue;
       positions_[lane] = dynamics_.start(dice_.of_start(lane));
       elapsed_[lane] = 0;
       show(lane, now.state, now.observation);

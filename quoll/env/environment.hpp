@@ -63,7 +63,9 @@ class Environment {
  public:
   virtual ~Environment() = default;
   virtual Spaces spaces() const = 0;
-  /// Begins an episode in every lane with `restart[lane]` set: fills state (and observation).
+  /// Begins an episode in every lane with `restart[lane]` set: fills state (and observation). An
+  /// empty `restart`, once after a step(), means every lane that is over by now.feedback, which is
+  /// to be as step() left it; with many lanes that is the fastest way.
   virtual void restart(std::span<const std::uint8_t> restart, Experience& now) = 0;
   /// Number of actions of a numbered state, the same in every lane; 0 = an end.
   virtual std::uint32_t actions(State) const { return spaces().actions; }
@@ -76,6 +78,13 @@ class Environment {
   virtual void persist(Archive& archive) = 0;
   /// Nullptr when there is nothing to look at.
   virtual Inspector* inspector() { return nullptr; }
+
+ protected:
+  /// Whether restart() is to begin an episode in this lane.
+  static bool begins(std::span<const std::uint8_t> restart, const Experience& now,
+                     std::size_t lane) {
+    return restart.empty() ? now.feedback[lane].over() : restart[lane] != 0;
+  }
 };
 
 }  // namespace quoll

@@ -123,7 +123,7 @@ class ModelEnvironment final : public Environment, private Inspector {
   }
   void restart(std::span<const std::uint8_t> restart, Experience& now) override {
     for (std::size_t lane = 0; lane < elapsed_.size(); ++lane) {
-      if (!restart[lane]) continue;
+      if (!begins(restart, now, lane)) continue;
       now.state[lane] = model_->start(dice_.of_start(lane).uniform());
       elapsed_[lane] = 0;
     }

@@ -18,6 +18,8 @@ struct Feedback {
   bool terminated = false;
   bool truncated = false;
   bool turn_passes = false;
+
+  bool over() const { return terminated | truncated; }
 };
 
 /// Columns with one entry per lane. `observation` columns hold lanes x observation_size floats and

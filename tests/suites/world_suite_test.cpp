@@ -31,6 +31,8 @@ struct Play {
   std::vector<std::uint8_t> restart;
   std::vector<Rng> coins;
   std::vector<std::vector<double>> seen;
+  int forced = 40;     ///< restarts every so many steps, 0 = where an episode is over only
+  bool listed = true;  ///< restart() is told which lanes
 
   Play(const World& world, std::uint32_t lanes, std::uint64_t seed)
       : environment(world.make({lanes, seed, 0, nullptr})),
@@ -46,7 +48,7 @@ struct Play {
   void play(int steps) {
     Experience now{state, action, feedback, next, {}, {}};
     for (int t = 0; t < steps; ++t) {
-      environment->restart(restart, now);
+      environment->restart(listed || t == 0 ? restart : std::span<const std::uint8_t>(), now);
       for (std::size_t i = 0; i < state.size(); ++i) {
         const std::uint32_t actions = environment->actions(state[i]);
         const std::uint64_t bits = coins[i].next();
@@ -56,7 +58,7 @@ struct Play {
       for (std::size_t i = 0; i < state.size(); ++i) {
         seen[i].insert(seen[i].end(), {double(state[i]), double(action[i]), feedback[i].reward,
                                        double(next[i]), double(feedback[i].terminated)});
-        restart[i] = feedback[i].terminated || feedback[i].truncated || t % 40 == 39;
+        restart[i] = feedback[i].over() || (forced > 0 && t % forced == forced - 1);
       }
       state = next;
     }
@@ -86,6 +88,17 @@ TEST(Worlds, ABatchIsItsLanes) {
     one.play(500);
     EXPECT_EQ(one.seen[0], three.seen[0]) << world.name;
     for (int lane = 0; lane < 3; ++lane) EXPECT_EQ(three.seen[lane], seven.seen[lane]);
+  }
+}
+
+TEST(Worlds, AnEmptyListRestartsTheLanesThatAreOver) {
+  for (const World& world : all_worlds()) {
+    Play listed(world, 9, 7), not_listed(world, 9, 7);
+    listed.forced = not_listed.forced = 0;
+    not_listed.listed = false;
+    listed.play(300);
+    not_listed.play(300);
+    EXPECT_EQ(listed.seen, not_listed.seen) << world.name;
   }
 }
 

@@ -4,16 +4,18 @@
 
 #include "quoll/env/worlds/cartpole_kernel.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
 namespace quoll::cartpole {
 namespace {
 
-static_assert(sizeof(Feedback) == 16 && offsetof(Feedback, terminated) == 8 &&
-              offsetof(Feedback, truncated) == 9);
+static_assert(sizeof(Feedback) == 16);
 
 template <class Number, int bytes>
 struct VectorOf {
@@ -74,115 +76,193 @@ QUOLL_INLINE void store_rows(const V& a, const V& b, const V& c, const V& d, flo
   }
 }
 
-/// All bits set where both |x| <= edge and |angle| <= lean, else none. Sizes are compared as whole
-/// numbers: compilers take apart the comparisons of the widest vectors.
+/// Two vectors as one number of move(), so that two chains of operations go side by side.
+template <class V>
+struct Pair {
+  V half[2];
+};
+#define QUOLL_PAIRWISE(sign)                                               \
+  template <class V>                                                       \
+  QUOLL_INLINE Pair<V> operator sign(const Pair<V>& a, const Pair<V>& b) { \
+    return {{a.half[0] sign b.half[0], a.half[1] sign b.half[1]}};         \
+  }                                                                        \
+  template <class V, class Real>                                           \
+  QUOLL_INLINE Pair<V> operator sign(const Pair<V>& a, const Real & b)     \
+    requires std::is_floating_point_v<Real>                                \
+  {                                                                        \
+    return {{a.half[0] sign b, a.half[1] sign b}};                         \
+  }
+QUOLL_PAIRWISE(+)
+QUOLL_PAIRWISE(-)
+QUOLL_PAIRWISE(*)
+QUOLL_PAIRWISE(/)
+template <class V, class Real>
+QUOLL_INLINE Pair<V> operator-(const Real& a, const Pair<V>& b)
+  requires std::is_floating_point_v<Real>
+{
+  return {{a - b.half[0], a - b.half[1]}};
+}
+
+/// The top bit is set where |x| > edge or |angle| > lean. Sizes are compared as whole numbers:
+/// compilers take apart the comparisons of the widest vectors.
 template <class Real, class Bits, class V>
-QUOLL_INLINE void upright(const V& x, const V& angle, Bits& up) {
-  using Word = std::conditional_t<sizeof(Real) == 8, std::uint64_t, std::uint32_t>;
+QUOLL_INLINE void fall(const V& x, const V& angle, Bits& down) {
+  using Word = std::conditional_t<sizeof(Real) == 8, std::int64_t, std::int32_t>;
   constexpr auto edge = std::bit_cast<Word>(static_cast<Real>(track_end));
   constexpr auto lean = std::bit_cast<Word>(static_cast<Real>(angle_end));
-  constexpr Word size = ~Word{0} >> 1;
-  const Bits far = edge - (reinterpret_cast<Bits>(x) & size);
-  const Bits tilt = lean - (reinterpret_cast<Bits>(angle) & size);
-  up = ((far | tilt) >> (sizeof(Word) * 8 - 1)) - 1;
+  constexpr Word size = std::numeric_limits<Word>::max();
+  down =
+      (edge - (reinterpret_cast<Bits>(x) & size)) | (lean - (reinterpret_cast<Bits>(angle) & size));
 }
 
-/// Moves bytes / sizeof(Real) lanes to `to`; all bits set in `was` and `is` where they were and are
-/// up.
-template <class Real, int bytes, class V, class Bits>
-QUOLL_INLINE void move_lanes(Block<Real>& block, std::size_t first, const Bits& action, V (&to)[4],
-                             Bits& was, Bits& is) {
-  using Word = std::conditional_t<sizeof(Real) == 8, std::uint64_t, std::uint32_t>;
-  V at[4];
+/// The forces of two vectors of actions.
+template <int bytes, class V>
+QUOLL_INLINE void forces(const Action* action, Pair<V>& force) {
+  constexpr bool twofold = sizeof(force.half[0][0]) == 8;
+  using Real = std::conditional_t<twofold, double, float>;
+  using Word = std::conditional_t<twofold, std::uint64_t, std::uint32_t>;
+  using Bits = Vector<Word, bytes>;
+  constexpr std::size_t lanes = bytes / sizeof(Word);
+  constexpr auto left = std::bit_cast<Word>(static_cast<Real>(-force_size));
   QUOLL_FOUR_TIMES
-  for (int i = 0; i < 4; ++i) {
-    load(at[i], block.number[i] + first);
-    to[i] = at[i];
-  }
-  constexpr auto push = std::bit_cast<Word>(static_cast<Real>(force_size));
-  const Bits force = (action ^ Word{1}) << (sizeof(Word) * 8 - 1) ^ push;
-  move<Real>(to[0], to[1], to[2], to[3], reinterpret_cast<V>(force));
-  upright<Real>(at[0], at[2], was);
-  upright<Real>(to[0], to[2], is);
-  is = is & was;
-  QUOLL_FOUR_TIMES
-  for (int i = 0; i < 4; ++i) {
-    const Bits kept = ~was & reinterpret_cast<Bits>(at[i]);
-    to[i] = reinterpret_cast<V>((was & reinterpret_cast<Bits>(to[i])) | kept);
-    store(to[i], block.number[i] + first);
+  for (std::size_t half = 0; half < 2; ++half) {
+    Vector<Action, lanes * sizeof(Action)> chosen;
+    load(chosen, action + half * lanes);
+    const Bits sign = __builtin_convertvector(chosen, Bits) << (sizeof(Word) * 8 - 1);
+    force.half[half] = reinterpret_cast<V>(sign ^ left);
   }
 }
 
-/// The same for bytes / 4 lanes, with what is seen of them.
-template <int bytes, class Floats, class Words>
-QUOLL_INLINE void move_block(Block<float>& block, std::size_t first, const Action* action,
-                             Floats (&seen)[4], Words& was, Words& is) {
-  Words chosen;
-  load(chosen, action);
-  move_lanes<float, bytes>(block, first, chosen, seen, was, is);
-}
-template <int bytes, class Floats, class Words>
-QUOLL_INLINE void move_block(Block<double>& block, std::size_t first, const Action* action,
-                             Floats (&seen)[4], Words& was, Words& is) {
-  using Bits = Vector<std::uint64_t, bytes>;
-  using Half = Vector<std::uint32_t, bytes / 2>;
-  using HalfSeen = Vector<float, bytes / 2>;
-  constexpr std::size_t lanes = bytes / 8;
-  constexpr std::make_index_sequence<2 * lanes> all;
-  Vector<double, bytes> low[4], high[4];
-  Bits was_low, was_high, is_low, is_high;
-  Half chosen;
-  load(chosen, action);
-  move_lanes<double, bytes>(block, first, __builtin_convertvector(chosen, Bits), low, was_low,
-                            is_low);
-  load(chosen, action + lanes);
-  move_lanes<double, bytes>(block, first + lanes, __builtin_convertvector(chosen, Bits), high,
-                            was_high, is_high);
-  QUOLL_FOUR_TIMES
-  for (int i = 0; i < 4; ++i) {
-    join(__builtin_convertvector(low[i], HalfSeen), __builtin_convertvector(high[i], HalfSeen),
-         seen[i], all);
+/// The part of two vectors that makes one of 4-byte numbers: one of them, or both made narrower.
+template <class From, class To>
+QUOLL_INLINE void narrow(const From (&from)[2], std::size_t part, To& to) {
+  if constexpr (sizeof(from[0][0]) == 4) {
+    to = from[part];
+  } else {
+    using Number = std::remove_cvref_t<decltype(to[0])>;
+    using Half = Vector<Number, sizeof to / 2>;
+    From low = from[0], high = from[1];
+    if constexpr (std::is_integral_v<Number>) {  // top bits
+      low = low >> 32;
+      high = high >> 32;
+    }
+    join(__builtin_convertvector(low, Half), __builtin_convertvector(high, Half), to,
+         std::make_index_sequence<sizeof to / 4>());
   }
-  join(__builtin_convertvector(was_low, Half), __builtin_convertvector(was_high, Half), was, all);
-  join(__builtin_convertvector(is_low, Half), __builtin_convertvector(is_high, Half), is, all);
 }
 
-/// One step of `count` blocks.
-template <class Real, int bytes>
-QUOLL_INLINE void step_blocks(Block<Real>* blocks, std::size_t count, const Filled& filled,
-                              const Clock& clock, const Rewards& rewards) {
+/// Lanes whose episode ended: gathered as bits, 32 vectors in one, and then read out. So there is
+/// no branch for each.
+template <int bytes>
+struct Gathered {
+  static constexpr std::size_t lanes = bytes / 4;
   using Words = Vector<std::uint32_t, bytes>;
-  constexpr std::size_t lanes = bytes / 4;
-  for (std::size_t done = 0; done < count * block_lanes; done += lanes) {
+  Words set{}, bit = Words{} + 1;  // bit i of word k: lane first + i lanes + k
+  std::size_t first = 0, vectors = 0, found = 0;
+
+  /// The next lanes, by their top bits.
+  QUOLL_INLINE void add(const Vector<std::int32_t, bytes>& top, std::uint32_t* to) {
+    set = set | (reinterpret_cast<Words>(top >> 31) & bit);
+    bit = bit + bit;
+    if (++vectors == 32) read(to);
+  }
+  QUOLL_INLINE void read(std::uint32_t* to) {
+    std::uint64_t pairs[lanes / 2];
+    std::memcpy(pairs, &set, sizeof set);
+    for (std::size_t pair = 0; pair < lanes / 2; ++pair) {
+      std::uint64_t left = pairs[pair];
+      std::uint32_t* next = to + found;
+      found += static_cast<std::size_t>(std::popcount(left));
+      // Four at a time, the last of them in vain: to foresee wrongly how many are left is dearer.
+      for (; left != 0; next += 4) {
+        QUOLL_FOUR_TIMES
+        for (int i = 0; i < 4; ++i) {
+          const auto at = static_cast<std::size_t>(std::countr_zero(left | 1ULL << 63));
+          next[i] = static_cast<std::uint32_t>(first + at % 32 * lanes + 2 * pair + at / 32);
+          left &= left - 1;
+        }
+      }
+    }
+    first += 32 * lanes;
+    vectors = 0;
+    set = Words{};
+    bit = Words{} + 1;
+  }
+};
+
+/// As Kernel::step and Kernel::draw.
+template <class Real, int bytes>
+QUOLL_INLINE Ends step_blocks(Block<Real>* blocks, std::size_t count, const Stepped& stepped,
+                              std::uint32_t now, const Feedback& usual) {
+  using V = Vector<Real, bytes>;
+  using Bits = Vector<std::conditional_t<sizeof(Real) == 8, std::int64_t, std::int32_t>, bytes>;
+  using Words = Vector<std::uint32_t, bytes>;
+  using Signed = Vector<std::int32_t, bytes>;
+  constexpr std::size_t lanes = bytes / sizeof(Real), told = bytes / 4;
+  constexpr std::size_t feedbacks = bytes / sizeof(Feedback);
+  Feedback usuals[feedbacks];
+  std::fill_n(usuals, feedbacks, usual);
+  Words told_feedback, some_cut{};
+  load(told_feedback, usuals);
+  Gathered<bytes> gathered;
+  const auto [action, due, feedback, seen, ended] = stepped;
+  for (std::size_t done = 0; done < count * block_lanes; done += 2 * lanes) {
     Block<Real>& block = blocks[done / block_lanes];
     const std::size_t first = done % block_lanes;
-    Vector<float, bytes> seen[4];
-    Words was, is, began;
-    move_block<bytes>(block, first, filled.action + done, seen, was, is);
-    load(began, block.began + first);
-    const Words left = (clock.now - began) ^ clock.limit;
-    const Words cut = ((left | -left) >> 31) ^ 1u;
-    const Words flags = (~is & 1u) | cut << 8;
-    const Words reward = was & ((is & rewards.step) | (~is & rewards.end));
-    const Words nothing{};
-    store_rows<bytes>(nothing, reward, flags, nothing,
-                      reinterpret_cast<float*>(filled.feedback + done));
-    if (filled.seen) {
-      store_rows<bytes>(seen[0], seen[1], seen[2], seen[3], filled.seen + 4 * done);
+    Pair<V> at[4], force;
+    QUOLL_FOUR_TIMES
+    for (int i = 0; i < 4; ++i) {
+      load(at[i].half[0], block.number[i] + first);
+      load(at[i].half[1], block.number[i] + first + lanes);
+    }
+    forces<bytes>(action + done, force);
+    move<Real>(at[0], at[1], at[2], at[3], force);
+    Bits down[2];
+    QUOLL_FOUR_TIMES
+    for (int half = 0; half < 2; ++half) {
+      fall<Real>(at[0].half[half], at[2].half[half], down[half]);
+      QUOLL_FOUR_TIMES
+      for (int i = 0; i < 4; ++i) store(at[i].half[half], block.number[i] + first + half * lanes);
+    }
+    // From here on vectors of 4-byte words: two of floats, one of doubles.
+    QUOLL_FOUR_TIMES
+    for (std::size_t part = 0; part < 2 * lanes / told; ++part) {
+      const std::size_t lane = done + part * told;
+      Vector<float, bytes> numbers[4];
+      Signed gone;
+      Words left, cut;
+      QUOLL_FOUR_TIMES
+      for (int i = 0; i < 4; ++i) narrow(at[i].half, part, numbers[i]);
+      narrow(down, part, gone);
+      load(left, due + lane);
+      left = left - now;
+      cut = (left - 1u) & ~left;  // the top bit: no step is left
+      some_cut = some_cut | cut;
+      gathered.add(gone | reinterpret_cast<Signed>(cut), ended);
+#pragma GCC unroll 4
+      for (std::size_t i = 0; i < told; i += feedbacks) store(told_feedback, feedback + lane + i);
+      if (seen) store_rows<bytes>(numbers[0], numbers[1], numbers[2], numbers[3], seen + 4 * lane);
     }
   }
+  gathered.read(ended);
+  std::uint32_t cuts[told], some = 0;
+  store(some_cut, cuts);
+  for (const std::uint32_t cut : cuts) some |= cut;
+  return {gathered.found, some >> 31 != 0};
 }
 
-/// The next four draws of eight streams, as start() takes them: number by number, `group` apart.
-template <int bytes>
-QUOLL_INLINE void draw_group(std::uint64_t* streams, double* starts) {
+template <class Real, int bytes>
+QUOLL_INLINE void draw_groups(std::uint64_t* streams, std::size_t groups, Real* starts) {
   using Bits = Vector<std::uint64_t, bytes>;
   using Whole = Vector<std::int64_t, bytes>;
   using Doubles = Vector<double, bytes>;
+  using Reals = Vector<Real, bytes / 8 * sizeof(Real)>;
   constexpr double low = -start_size, high = start_size;
-  for (std::size_t at = 0; at < group; at += bytes / 8) {
+  constexpr std::size_t lanes = bytes / 8;
+  for (std::size_t done = 0; done < groups * group; done += lanes) {
     Bits state;
-    load(state, streams + at);
+    load(state, streams + done);
+    Real* const to = starts + done / group * 4 * group + done % group;
     QUOLL_FOUR_TIMES
     for (std::size_t i = 0; i < 4; ++i) {
       state = state + golden_gamma;
@@ -193,23 +273,23 @@ QUOLL_INLINE void draw_group(std::uint64_t* streams, double* starts) {
       const Doubles units =
           __builtin_convertvector(reinterpret_cast<Whole>(z), Doubles) * 0x1.0p-53;
       const Doubles numbers = low + (high - low) * units;
-      store(numbers, starts + i * group + at);
+      store(__builtin_convertvector(numbers, Reals), to + i * group);
     }
-    store(state, streams + at);
+    store(state, streams + done);
   }
 }
 
-#define QUOLL_KERNEL(name, bytes, ...)                                                       \
-  template <class Real>                                                                      \
-  __VA_ARGS__ void step_##name(Block<Real>* blocks, std::size_t count, const Filled& filled, \
-                               const Clock& clock, const Rewards& rewards) {                 \
-    step_blocks<Real, bytes>(blocks, count, filled, clock, rewards);                         \
-  }                                                                                          \
-  template <class Real>                                                                      \
-  __VA_ARGS__ void draw_##name(std::uint64_t* streams, double* starts) {                     \
-    draw_group<bytes>(streams, starts);                                                      \
-  }                                                                                          \
-  template <class Real>                                                                      \
+#define QUOLL_KERNEL(name, bytes, ...)                                                         \
+  template <class Real>                                                                        \
+  __VA_ARGS__ Ends step_##name(Block<Real>* blocks, std::size_t count, const Stepped& stepped, \
+                               std::uint32_t now, const Feedback& usual) {                     \
+    return step_blocks<Real, bytes>(blocks, count, stepped, now, usual);                       \
+  }                                                                                            \
+  template <class Real>                                                                        \
+  __VA_ARGS__ void draw_##name(std::uint64_t* streams, std::size_t groups, Real* starts) {     \
+    draw_groups<Real, bytes>(streams, groups, starts);                                         \
+  }                                                                                            \
+  template <class Real>                                                                        \
   constexpr Kernel<Real> name##_kernel{step_##name<Real>, draw_##name<Real>};
 
 QUOLL_KERNEL(narrow, 16)

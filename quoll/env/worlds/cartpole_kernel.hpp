@@ -8,32 +8,24 @@
 
 namespace quoll::cartpole {
 
-/// The columns of as many lanes as the widest vector holds.
-inline constexpr std::size_t block_lanes = 16;
+/// Columns of lanes: two of the widest vectors of floats.
+inline constexpr std::size_t block_lanes = 32;
 template <class Real>
 struct alignas(64) Block {
-  Real number[4][block_lanes]{};       // x, speed, angle, turning
-  std::uint32_t began[block_lanes]{};  // the step count at the start of the lane's episode
+  Real number[4][block_lanes]{};  // x, speed, angle, turning
 };
 
 /// What a step reads and fills, from the first lane of the first block on.
-struct Filled {
+struct Stepped {
   const Action* action;
-  Feedback* feedback;
-  float* seen;  // four per lane, or nullptr
+  const std::uint32_t* due;  // the step count at which the lane's episode is cut off
+  Feedback* feedback;        // `usual` in all lanes
+  float* seen;               // four per lane, or nullptr
+  std::uint32_t* ended;      // lanes, in no order; room for four more is needed
 };
-
-struct Clock {
-  std::uint32_t now, limit;  // steps made, this one included; a limit of 0 = none
-};
-
-// The upper halves of the doubles -1, 0 and 1; the lower ones are 0.
-constexpr std::uint32_t upper_half(double reward) {
-  return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(reward) >> 32);
-}
-
-struct Rewards {
-  std::uint32_t step, end;
+struct Ends {
+  std::size_t count = 0;  // of `ended`
+  bool cut = false;       // whether some lane was cut off
 };
 
 /// Lanes that draw() draws for at once.
@@ -41,10 +33,12 @@ inline constexpr std::size_t group = 8;
 
 template <class Real>
 struct Kernel {
-  /// One step of `count` blocks.
-  void (*step)(Block<Real>*, std::size_t count, const Filled&, const Clock&, const Rewards&);
-  /// The next four draws of eight streams, as start() takes them: number by number, `group` apart.
-  void (*draw)(std::uint64_t* streams, double* starts);
+  /// The step number `now` of `count` blocks; fallen lanes move on.
+  Ends (*step)(Block<Real>*, std::size_t count, const Stepped&, std::uint32_t now,
+               const Feedback& usual);
+  /// The next four draws of `groups` times `group` streams, as start() takes them: of each group
+  /// number by number.
+  void (*draw)(std::uint64_t* streams, std::size_t groups, Real* starts);
 };
 
 /// The widest that this processor has and `most_bytes` allows; Real is double or float.

@@ -12,7 +12,7 @@ namespace quoll {
 namespace {
 
 /// Lanes of an environment, driven by coins of each lane; restarted where an episode is over, and
-/// now and then where it is not.
+/// now and then where it is not. Unless `listed`, restart() is left to find those that are over.
 struct Drive {
   std::unique_ptr<Environment> environment;
   std::vector<Action> action;
@@ -21,6 +21,7 @@ struct Drive {
   std::vector<std::uint8_t> restart;
   std::vector<Rng> coins;
   std::uint32_t time = 0;
+  bool listed = true;
 
   explicit Drive(std::unique_ptr<Environment> lanes, std::uint32_t count)
       : environment(std::move(lanes)),
@@ -33,7 +34,7 @@ struct Drive {
   }
   void step() {
     Experience now{{}, action, feedback, {}, seen, next_seen};
-    environment->restart(restart, now);
+    environment->restart(listed || time == 0 ? restart : std::span<const std::uint8_t>(), now);
     for (std::size_t lane = 0; lane < action.size(); ++lane) {
       // Half of the lanes balance, so that limits are met; some go on after the end.
       const float* const x = &seen[4 * lane];
@@ -43,8 +44,7 @@ struct Drive {
     environment->step(now);
     ++time;
     for (std::size_t lane = 0; lane < action.size(); ++lane) {
-      const bool over = feedback[lane].terminated || feedback[lane].truncated;
-      restart[lane] = over && (lane % 5 != 0 || (time + lane) % 7 == 0);
+      restart[lane] = feedback[lane].over() && (!listed || lane % 5 != 0 || (time + lane) % 7 == 0);
     }
     std::swap(seen, next_seen);
     for (std::size_t lane = 0; lane < action.size(); ++lane) {
@@ -55,11 +55,12 @@ struct Drive {
 };
 
 template <class Real>
-void expect_the_same(std::uint32_t count, int most_bytes, bool sutton_barto) {
+void expect_the_same(std::uint32_t count, int most_bytes, bool sutton_barto, bool listed = true) {
   const CartPole<Real> dynamics{sutton_barto};
   const Lanes lanes{count, 17, 60, nullptr};
   Drive plain(batch(dynamics, lanes), count);
   Drive fast(cartpole_lanes(dynamics, lanes, most_bytes), count);
+  plain.listed = fast.listed = listed;
   int terminated = 0, truncated = 0, both = 0;
   for (int t = 0; t < 1500; ++t) {
     plain.step();
@@ -89,6 +90,9 @@ TEST(CartPoleLanes, AreThePlainStructInEveryWidth) {
     expect_the_same<float>(37, bytes, true);
     expect_the_same<double>(16, bytes, true);
     expect_the_same<float>(8, bytes, false);
+    expect_the_same<double>(70, bytes, true, false);
+    expect_the_same<float>(70, bytes, false, false);
+    expect_the_same<float>(600, bytes, false);  // more than 32 of the widest vectors
   }
 }
 
@@ -172,6 +176,34 @@ TEST(CartPoleLanes, CanBeSetAndLookedAt) {
   EXPECT_NE(lanes->inspector()->text(8, 0).find("x 0.500 m"), std::string::npos);
   EXPECT_FALSE(lanes->inspector()->set(8, Tree(0.5), at));
   EXPECT_FALSE(lanes->set(0, 0));
+}
+
+// A lane beside the track is at an end, also where its speed would carry it back.
+TEST(CartPoleLanes, RestWherePutIntoAnEnd) {
+  for (const int bytes : {16, 32, 64}) {
+    Drive drive(cartpole_lanes(CartPole<double>{false}, {40, 1, 9, nullptr}, bytes), 40);
+    drive.listed = false;
+    drive.step();
+    State at = 0;
+    Tree::List list;
+    for (const double number : {2.41, -5.0, 0.0, 0.0}) list.emplace_back(number);
+    for (const std::uint32_t lane : {3u, 35u}) {
+      ASSERT_TRUE(drive.environment->inspector()->set(lane, Tree(list), at));
+    }
+    Experience now{{}, drive.action, drive.feedback, {}, drive.seen, drive.next_seen};
+    for (int t = 1; t < 11; ++t) {
+      drive.environment->step(now);
+      for (const std::uint32_t lane : {3u, 35u}) {
+        EXPECT_EQ(drive.environment->inspector()->state(lane, 0), Tree(list));
+        EXPECT_EQ(drive.next_seen[4 * lane], 2.41f);
+        EXPECT_EQ(drive.feedback[lane].reward, 0.0);
+        EXPECT_TRUE(drive.feedback[lane].terminated);
+        EXPECT_EQ(drive.feedback[lane].truncated, t == 9);
+      }
+    }
+    drive.environment->restart({}, now);
+    for (const std::uint32_t lane : {3u, 35u}) EXPECT_LE(std::fabs(drive.seen[4 * lane]), 0.05f);
+  }
 }
 
 }  // namespace
