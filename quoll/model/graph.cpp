@@ -8,18 +8,23 @@ namespace quoll {
 
 namespace {
 
-// The states from which one move may lead to each state, ends left out as origins.
+// The states from which one move may lead to each state, each once, ends and the state itself left
+// out as origins.
 struct Predecessors {
   std::vector<std::uint64_t> begin;  // states + 1, and one spare place used while filling
   std::vector<State> from;
 
   explicit Predecessors(const Mdp& mdp) : begin(mdp.states() + 2, 0) {
-    const auto for_each = [&mdp](auto&& see) {
+    std::vector<State> last(mdp.states());  // the last origin seen for a state
+    const auto for_each = [&mdp, &last](auto&& see) {
+      std::iota(last.begin(), last.end(), State{0});
       for (State s = 0; s < mdp.states(); ++s) {
         if (mdp.terminal(s)) continue;
         const std::uint64_t end = mdp.outcome_begin(mdp.choice_end(s));
         for (std::uint64_t o = mdp.outcome_begin(mdp.choice_begin(s)); o < end; ++o) {
-          see(s, mdp.next(o));
+          const State to = mdp.next(o);
+          if (to != s && last[to] != s) see(s, to);
+          last[to] = s;
         }
       }
     };
@@ -55,7 +60,6 @@ std::vector<std::uint32_t> moves_from(const Mdp& mdp, std::span<const State> fro
 }
 
 std::vector<std::uint32_t> moves_to_end(const Mdp& mdp) {
-  const Predecessors before(mdp);
   std::vector<std::uint32_t> moves(mdp.states(), unreached);
   std::vector<State> queue;
   for (State s = 0; s < mdp.states(); ++s) {
@@ -63,6 +67,8 @@ std::vector<std::uint32_t> moves_to_end(const Mdp& mdp) {
     moves[s] = 0;
     queue.push_back(s);
   }
+  if (queue.empty()) return moves;
+  const Predecessors before(mdp);
   for (std::size_t i = 0; i < queue.size(); ++i) {
     const State s = queue[i];
     for (std::uint64_t p = before.begin[s]; p < before.begin[s + 1]; ++p) {

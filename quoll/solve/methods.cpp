@@ -37,6 +37,15 @@ Result<double> discount_of_one(const Mdp& mdp, const SolveSettings& settings) {
                "backward-induction"};
 }
 
+Result<double> discounted_only(const Mdp& mdp, const SolveSettings& settings,
+                               std::string_view method) {
+  const Result<double> discount = discount_of_one(mdp, settings);
+  if (!discount || *discount < 1.0) return discount;
+  return Error{"--method", 0, 0,
+               std::string(method) + " needs a discount below 1; policy-iteration does without",
+               "policy-iteration"};
+}
+
 std::optional<Error> undiscounted_error(const Mdp& mdp) {
   const UndiscountedFault fault = undiscounted_fault(mdp);
   using Kind = UndiscountedFault::Kind;

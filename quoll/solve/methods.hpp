@@ -12,6 +12,9 @@
 namespace quoll {
 
 std::unique_ptr<Solver> make_value_iteration();
+std::unique_ptr<Solver> make_gauss_seidel();
+std::unique_ptr<Solver> make_modified_policy_iteration();
+std::unique_ptr<Solver> make_wavefront();
 std::unique_ptr<Solver> make_policy_iteration();
 std::unique_ptr<Solver> make_label_setting();
 std::unique_ptr<Solver> make_backward_induction();
@@ -20,6 +23,10 @@ std::unique_ptr<Solver> make_backward_induction();
 Result<double> discount_in_use(const Mdp& mdp, const SolveSettings& settings);
 /// The same for methods of one player: Error for models where two move in turn.
 Result<double> discount_of_one(const Mdp& mdp, const SolveSettings& settings);
+
+/// The same for methods that need a discount below 1: Error at discount 1, naming the method.
+Result<double> discounted_only(const Mdp& mdp, const SolveSettings& settings,
+                               std::string_view method);
 
 /// The Error that names what makes total reward undefined at discount 1, if something does.
 std::optional<Error> undiscounted_error(const Mdp& mdp);

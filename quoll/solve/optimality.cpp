@@ -234,7 +234,8 @@ class Judge {
   std::vector<double> discounted_upper(const std::vector<double>& value) const {
     std::vector<double> bound(mdp_.states(), 0.0);
     std::vector<Action> greedy(mdp_.states(), no_action);
-    const Residual residual = sweep_all(mdp_, discount_, value, bound, greedy, 1);
+    const Residual residual =
+        sweep_all(mdp_, discount_, Residual{value.data(), bound.data(), greedy.data()}, 1);
     double size = 0.0;
     for (const double v : value) size = std::max(size, std::fabs(v));
     for (const double v : bound) size = std::max(size, std::fabs(v));

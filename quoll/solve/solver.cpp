@@ -5,15 +5,22 @@
 #include <vector>
 
 #include "quoll/base/text.hpp"
+#include "quoll/solve/discounted.hpp"
 #include "quoll/solve/methods.hpp"
 
 namespace quoll {
 
 namespace {
 
-constexpr std::array<SolverEntry, 4> registry{{
-    {"value-iteration", "Bellman sweeps with MacQueen's bounds; discounts below 1",
+constexpr std::array<SolverEntry, 7> registry{{
+    {"value-iteration", "Bellman sweeps with MacQueen's bounds and action elimination",
      make_value_iteration},
+    {"gauss-seidel", "sweeps in place, to and fro, from a lower bound; discounts below 1",
+     make_gauss_seidel, true},
+    {"modified-policy-iteration", "some sweeps for the policy alone between two for all actions",
+     make_modified_policy_iteration, true},
+    {"wavefront", "a window of sweeps that follows the news from the ends; discounts below 1",
+     make_wavefront, true},
     {"policy-iteration", "Howard's method; any model, also without discounting",
      make_policy_iteration},
     {"label-setting", "shortest paths; exact answers for deterministic models", make_label_setting},
@@ -21,20 +28,28 @@ constexpr std::array<SolverEntry, 4> registry{{
      make_backward_induction},
 }};
 
+// auto.
+class ByStructure : public Solver {
+ public:
+  Result<Solution> solve(const Mdp& mdp, const SolveSettings& settings) override {
+    if (!settings.maximise) return solve_minimised(*this, mdp, settings);
+    if (mdp.alternating()) return make_backward_induction()->solve(mdp, settings);
+    if (mdp.deterministic()) return make_label_setting()->solve(mdp, settings);
+    const Result<double> discount = discount_in_use(mdp, settings);
+    if (!discount) return discount.error();
+    if (*discount == 1.0) return make_policy_iteration()->solve(mdp, settings);
+    return solve_discounted(mdp, settings, *discount);
+  }
+};
+
 }  // namespace
 
 std::span<const SolverEntry> solvers() {
   return registry;
 }
 
-std::string_view choose_solver(const Mdp& mdp, double discount) {
-  if (mdp.alternating()) return "backward-induction";
-  if (mdp.deterministic()) return "label-setting";
-  return discount < 1.0 ? "value-iteration" : "policy-iteration";
-}
-
 Result<Solution> solve(const Mdp& mdp, const SolveSettings& settings, std::string_view method) {
-  if (method == "auto") method = choose_solver(mdp, settings.discount.value_or(mdp.discount()));
+  if (method == "auto") return ByStructure().solve(mdp, settings);
   std::vector<std::string_view> names{"auto"};
   for (const SolverEntry& entry : registry) {
     if (entry.name == method) return entry.make()->solve(mdp, settings);

@@ -51,18 +51,16 @@ struct SolverEntry {
   std::string_view name;
   std::string_view summary;  ///< one sentence
   std::unique_ptr<Solver> (*make)();
+  bool needs_discount = false;  ///< for discounts below 1 only
 };
 
 /// All solvers, in the order they are shown.
 std::span<const SolverEntry> solvers();
 
-/// Name of the solver `auto` takes, by the model's structure only: two players in turn ->
-/// backward-induction, deterministic -> label-setting, discount below 1 -> value-iteration, else
-/// policy-iteration.
-std::string_view choose_solver(const Mdp& mdp, double discount);
-
-/// Solves with the solver of that name, or the chosen one for "auto". Error: unknown name, and
-/// those of Solver::solve. Solution::method says which one ran.
+/// Solves with the solver of that name. "auto" takes one by the model's structure: two players in
+/// turn -> backward-induction, deterministic -> label-setting, no discounting -> policy-iteration,
+/// else wavefront if the ends are far from some state, or modified-policy-iteration. Error: unknown
+/// name, and those of Solver::solve. Solution::method says which one ran.
 Result<Solution> solve(const Mdp& mdp, const SolveSettings& settings = {},
                        std::string_view method = "auto");
 

@@ -130,23 +130,24 @@ struct Residual {
   }
 };
 
-/// A whole Jacobi sweep on several threads. Parts are cut by number of states and minima and maxima
-/// do not depend on order, so the bits do not depend on `threads`.
-inline Residual sweep_all(const Mdp& mdp, double discount, const std::vector<double>& from,
-                          std::vector<double>& to, std::vector<Action>& policy, unsigned threads) {
+/// A whole Jacobi sweep on several threads, each part with a copy of `backend`, a Residual. Parts
+/// are cut by number of states and minima and maxima do not depend on order, so the bits do not
+/// depend on `threads`.
+template <class Backend>
+Residual sweep_all(const Mdp& mdp, double discount, const Backend& backend, unsigned threads) {
   constexpr std::uint64_t part_size = 1 << 15;
   const std::uint64_t states = mdp.states();
   const std::size_t parts = (states + part_size - 1) / part_size;
-  std::vector<Residual> residuals(parts, Residual{from.data(), to.data(), policy.data()});
+  std::vector<Backend> backends(parts, backend);
   const auto work = [&](std::size_t part) {
     const std::uint64_t begin = part * part_size;
     const std::uint64_t end = std::min(states, begin + part_size);
-    sweep(mdp, discount, from.data(), {static_cast<State>(begin), static_cast<State>(end)},
-          residuals[part]);
+    sweep(mdp, discount, backend.old_value, {static_cast<State>(begin), static_cast<State>(end)},
+          backends[part]);
   };
   parallel_for(parts, threads, work);
-  Residual all{from.data(), to.data(), policy.data()};
-  for (const Residual& part : residuals) {
+  Residual all = backend;
+  for (const Backend& part : backends) {
     all.least = std::min(all.least, part.least);
     all.greatest = std::max(all.greatest, part.greatest);
   }

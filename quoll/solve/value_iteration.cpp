@@ -1,24 +1,22 @@
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "quoll/solve/discounted.hpp"
 #include "quoll/solve/methods.hpp"
-#include "quoll/solve/span_bounds.hpp"
 #include "quoll/solve/sweep.hpp"
 
-// Value iteration with certified bounds. Bellman 1957; bounds: MacQueen 1966, Porteus 1971
-// (Puterman 1994, section 6.6); Gauss-Seidel in alternating directions from a lower bound.
+// Value iteration with certified bounds and action elimination. Bellman 1957; bounds: MacQueen
+// 1966, Porteus 1971 (Puterman 1994, section 6.6); elimination: MacQueen 1967 (Puterman 1994, 6.7).
 //
-//   1  V <- min(0, least reward) / (1 - g), 0 at ends: a lower bound on V*
-//   2  W <- T V; bounds from the least and greatest W - V; stop when narrow enough; V <- W
-//   3  if the span of W - V shrinks slowly (ends far away), sweep in place instead: good news
-//   travels
-//      along the sweep, so that a few passes to and fro do the work of hundreds; then step 2 again
-//   4  lower, upper, policy from the last W; the greedy policy earns at least lower
+//   1  W <- T V over the actions left; W + l <= V* <= W + u from the least and greatest W - V
+//   2  an action with Q(s, a) + g u < max Q(s, .) + g l, for the l and u before that sweep, is
+//   never
+//      optimal and left out from then on; V <- W and 1 again, until u - l is narrow enough
+//   3  one sweep over all actions certifies
 //
-// T: the kernel of sweep.hpp, g: discount, V: value, W: backed_up.
+// V: run.value(), W: backed_up, g: discount.
 
 namespace quoll {
 
@@ -26,108 +24,68 @@ namespace {
 
 class ValueIteration {
  public:
-  ValueIteration(const Mdp& mdp, const SolveSettings& settings, double discount)
-      : mdp_(mdp),
-        settings_(settings),
-        discount_(discount),
-        scale_(mdp),
-        value_(mdp.states(), 0.0),
-        backed_up_(mdp.states(), 0.0) {
-    solution_.method = "value-iteration";
-    solution_.discount = discount;
-    solution_.policy.assign(mdp.states(), no_action);
-    const double low = std::min(0.0, mdp.reward_bounds().first) / (1.0 - discount);
-    for (State s = 0; s < mdp.states(); ++s) {
-      if (!mdp.terminal(s)) value_[s] = low;  // step 1
+  explicit ValueIteration(Discounted& run)
+      : run_(run), mdp_(run.mdp()), left_(mdp_.choices()), count_(mdp_.states()) {
+    for (State s = 0; s < mdp_.states(); ++s) {
+      count_[s] = mdp_.actions(s);
+      for (Action a = 0; a < count_[s]; ++a) left_[mdp_.choice_begin(s) + a] = a;
     }
   }
 
-  Solution run() {
-    constexpr unsigned trial = 6;             // Jacobi sweeps between two looks at the span
-    constexpr double slow_over_trial = 0.26;  // 0.8 per sweep: above that step 3 pays
-    double span_before = infinity;
-    for (unsigned k = 1; !narrow_enough(certify()); ++k) {
-      if (!go_on_) break;
-      if (k % trial == 0) {
-        const double kept = span_ / span_before;  // over `trial` sweeps
-        if (kept > slow_over_trial) sweep_in_place();
-        span_before = span_;
+  // Steps 1 and 2 once; true = narrow enough, or stopped.
+  bool sweep(std::vector<double>& backed_up) {
+    constexpr std::uint64_t part_size = 1 << 15;
+    const std::size_t parts = (mdp_.states() + part_size - 1) / part_size;
+    const Residual none{run_.value().data(), backed_up.data(), run_.policy().data()};
+    std::vector<Residual> residuals(parts, none);
+    parallel_for(parts, run_.threads(), [&](std::size_t part) {
+      const std::uint64_t begin = part * part_size;
+      const std::uint64_t end = std::min(mdp_.states(), begin + part_size);
+      const StateRange range{static_cast<State>(begin), static_cast<State>(end)};
+      if (mdp_.deterministic()) {
+        sweep_part(DeterministicRows(mdp_), range, residuals[part]);
+      } else {
+        sweep_part(StochasticRows(mdp_), range, residuals[part]);
       }
+    });
+    Residual all = none;
+    for (const Residual& part : residuals) {
+      all.least = std::min(all.least, part.least);
+      all.greatest = std::max(all.greatest, part.greatest);
     }
-    return finish();
+    return run_.certify_with(backed_up, all.least, all.greatest);
   }
 
  private:
-  // Step 2.
-  SpanBounds certify() {
-    const Residual residual =
-        sweep_all(mdp_, discount_, value_, backed_up_, solution_.policy, settings_.threads);
-    double size = 0.0;
-    for (const double v : backed_up_) size = std::max(size, std::fabs(v));
-    for (const double v : value_) size = std::max(size, std::fabs(v));
-    std::swap(value_, backed_up_);
-    count_sweep();
-    if (residual.greatest == -infinity) return bounds_ = {0.0, 0.0, 0.0};  // only ends
-    span_ = residual.greatest - residual.least;
-    bounds_ = span_bounds(scale_, discount_, residual.least, residual.greatest, size);
-    go_on_ = may_continue(settings_, solution_, bounds_.width());
-    return bounds_;
-  }
-
-  bool narrow_enough(const SpanBounds& bounds) const {
-    return bounds.width() <= std::max(settings_.width, 2.0 * bounds.rounding);
-  }
-
-  // Step 3, until the change per sweep promises bounds that are narrow enough.
-  void sweep_in_place() {
-    const double aim = 0.25 * settings_.width * (1.0 - discount_) / discount_;
-    const double floor = 0.1 * bounds_.rounding * (1.0 - discount_);
-    bool backward = true;
-    double change = infinity;
-    const double goal = std::max({std::min(aim, 0.1 * span_), floor});
-    while (change > goal && go_on_) {
-      InPlace backend{value_.data()};
-      sweep(mdp_, discount_, value_.data(), {0, static_cast<State>(mdp_.states()), backward},
-            backend);
-      backward = !backward;
-      change = backend.change;
-      count_sweep();
-      go_on_ = may_continue(settings_, solution_, change * discount_ / (1.0 - discount_));
-    }
-    if (!go_on_) {
-      go_on_ = true;
-      certify();
-      go_on_ = false;
-    }
-  }
-
-  void count_sweep() {
-    ++solution_.sweeps;
-    solution_.backups += mdp_.states();
-  }
-
-  // Step 4.
-  Solution finish() {
-    solution_.lower = std::move(value_);
-    solution_.upper = solution_.lower;
-    for (State s = 0; s < mdp_.states(); ++s) {
+  template <class Rows>
+  void sweep_part(const Rows& rows, StateRange range, Residual& residual) {
+    const double margin = run_.discount() * run_.bounds().width();
+    std::vector<double> q;
+    for (State s = range.begin; s < range.end; ++s) {
       if (mdp_.terminal(s)) continue;
-      solution_.lower[s] = add_down(solution_.lower[s], bounds_.lower);
-      solution_.upper[s] = add_up(solution_.upper[s], bounds_.upper);
+      Action* const left = left_.data() + mdp_.choice_begin(s);
+      q.resize(std::max<std::size_t>(q.size(), count_[s]));
+      double best = -infinity;
+      Action best_action = 0;
+      for (Action i = 0; i < count_[s]; ++i) {
+        q[i] = rows.backup(run_.discount(), run_.value().data(), mdp_.choice_begin(s) + left[i]);
+        if (!(q[i] > best)) continue;
+        best = q[i];
+        best_action = left[i];
+      }
+      residual(s, best, best_action);
+      Action kept = 0;
+      for (Action i = 0; i < count_[s]; ++i) {
+        if (q[i] + margin >= best) left[kept++] = left[i];
+      }
+      count_[s] = kept;
     }
-    conclude(mdp_, solution_, settings_.width);
-    return std::move(solution_);
   }
 
+  Discounted& run_;
   const Mdp& mdp_;
-  const SolveSettings& settings_;
-  double discount_;
-  ModelScale scale_;
-  Solution solution_;
-  std::vector<double> value_, backed_up_;
-  SpanBounds bounds_{-infinity, infinity, infinity};
-  double span_ = infinity;
-  bool go_on_ = true;
+  std::vector<Action> left_;   // per choice's place: the actions left of each state, at its front
+  std::vector<Action> count_;  // per state: how many
 };
 
 class ValueIterationSolver : public Solver {
@@ -137,7 +95,14 @@ class ValueIterationSolver : public Solver {
     const Result<double> discount = discount_of_one(mdp, settings);
     if (!discount) return discount.error();
     if (*discount == 1.0) return solve_undiscounted(mdp, settings, "value-iteration");
-    return ValueIteration(mdp, settings, *discount).run();
+    Discounted run(mdp, settings, *discount, "value-iteration");
+    ValueIteration iteration(run);
+    std::vector<double> backed_up(mdp.states(), 0.0);
+    do {
+      while (!iteration.sweep(backed_up)) {
+      }
+    } while (!run.stopped() && !run.certify());  // step 3
+    return run.finish();
   }
 };
 

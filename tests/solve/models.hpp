@@ -18,10 +18,14 @@ inline Mdp built(const MdpBuilder& builder) {
 }
 
 /// Whether a solver is made for a model of this kind.
-inline bool can_do(const SolverEntry& entry, const Mdp& mdp) {
+inline bool can_do(const SolverEntry& entry, const Mdp& mdp, double discount) {
+  if (entry.needs_discount && discount == 1.0) return false;
   if (entry.name == "backward-induction") return returning_states(mdp).empty();
   if (mdp.alternating()) return false;
   return mdp.deterministic() || entry.name != "label-setting";
+}
+inline bool can_do(const SolverEntry& entry, const Mdp& mdp) {
+  return can_do(entry, mdp, mdp.discount());
 }
 
 /// The lecture's game: V* = 64, 80, 80, 100, 100 at GATE, HALL, POOL, CAVE, WELL.

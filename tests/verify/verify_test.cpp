@@ -73,7 +73,7 @@ TEST(Verify, AcceptsWhatTheSolversReturn) {
       SolveSettings settings;
       settings.discount = discount;
       const Mdp mdp = test::adventure();
-      if (!test::can_do(entry, mdp)) continue;
+      if (!test::can_do(entry, mdp, discount)) continue;
       const auto found = solve(mdp, settings, entry.name);
       ASSERT_TRUE(found);
       const auto verdict = verify(mdp, found->lower, found->upper, found->policy, discount);
