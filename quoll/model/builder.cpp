@@ -110,7 +110,7 @@ Result<MdpArrays> MdpBuilder::arrays() const {
       }
     }
     if (joined < a.next.size()) {
-      a.probability[joined] += move.probability;
+      a.probability.set(joined, a.probability[joined] + move.probability);
       continue;
     }
     seen[move.to] = joined;

@@ -30,6 +30,10 @@ class Hash {
         add(std::uint64_t{item});
     }
   }
+  void add_all(const Column& items) {
+    add(std::uint64_t{items.size()});
+    for (std::size_t i = 0; i < items.size(); ++i) add(items[i]);
+  }
   std::uint64_t value() const { return mix(value_); }
 
  private:

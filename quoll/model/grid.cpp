@@ -149,7 +149,6 @@ class GridBuilder {
     if (grid.slip > 0) {
       a_.outcome_begin.reserve(choices + 1);
       a_.probability.reserve(outcomes);
-      a_.outcome_reward.reserve(outcomes);
     }
   }
 
@@ -217,7 +216,8 @@ class GridBuilder {
     }
   }
 
-  // Outcomes that end on the same cell are one.
+  // Outcomes that end on the same cell are one. Rewards are kept by outcome only from the first
+  // choice on whose outcomes differ in it.
   void add_slipping(const Arrival& straight, const Arrival& left, const Arrival& right) {
     const std::size_t begin = a_.next.size();
     a_.outcome_begin.push_back(begin);
@@ -228,18 +228,31 @@ class GridBuilder {
       const auto first = a_.next.begin() + static_cast<std::ptrdiff_t>(begin);
       const auto same = std::find(first, a_.next.end(), part->state);
       if (same != a_.next.end()) {
-        a_.probability[static_cast<std::size_t>(same - a_.next.begin())] += probability;
+        const auto o = static_cast<std::size_t>(same - a_.next.begin());
+        a_.probability.set(o, a_.probability[o] + probability);
         continue;
       }
+      if (a_.next.size() == begin) a_.reward.push_back(part->reward);
+      if (a_.outcome_reward.empty() && part->reward != a_.reward.back()) begin_outcome_reward();
       a_.next.push_back(part->state);
       a_.probability.push_back(probability);
-      a_.outcome_reward.push_back(part->reward);
+      if (!a_.outcome_reward.empty()) a_.outcome_reward.push_back(part->reward);
+    }
+  }
+
+  // Until now the outcomes of each choice had one reward.
+  void begin_outcome_reward() {
+    for (std::size_t choice = 0; choice < a_.reward.size(); ++choice) {
+      const bool last = choice + 1 == a_.reward.size();
+      const std::uint64_t end = last ? a_.next.size() : a_.outcome_begin[choice + 1];
+      a_.outcome_reward.resize(end, a_.reward[choice]);
     }
   }
 
   void finish() {
     a_.choice_begin.push_back(a_.action.size());
     if (grid_.slip > 0) a_.outcome_begin.push_back(a_.next.size());
+    if (!a_.outcome_reward.empty()) a_.reward = {};  // make() expects them
     Layout layout;
     layout.rows = static_cast<std::uint32_t>(grid_.rows.size());
     layout.columns = static_cast<std::uint32_t>(columns_);

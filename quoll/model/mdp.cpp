@@ -25,7 +25,9 @@ std::vector<bool> ends_of(const MdpArrays& a) {
 // An outcome that never happens is no outcome: without it, the graph needs no look at
 // probabilities.
 void drop_impossible_outcomes(MdpArrays& a) {
-  if (std::find(a.probability.begin(), a.probability.end(), 0.0) == a.probability.end()) return;
+  bool any = false;
+  for (std::size_t o = 0; o < a.probability.size() && !any; ++o) any = a.probability[o] == 0.0;
+  if (!any) return;
   std::vector<std::vector<double>*> along;
   if (!a.outcome_reward.empty()) along.push_back(&a.outcome_reward);
   for (RewardStructure& other : a.other_rewards) {
@@ -39,14 +41,14 @@ void drop_impossible_outcomes(MdpArrays& a) {
     for (; outcome < end; ++outcome) {
       if (a.probability[outcome] == 0.0) continue;
       a.next[kept] = a.next[outcome];
-      a.probability[kept] = a.probability[outcome];
+      a.probability.set(kept, a.probability[outcome]);
       for (std::vector<double>* list : along) (*list)[kept] = (*list)[outcome];
       ++kept;
     }
   }
   a.outcome_begin.back() = kept;
   a.next.resize(kept);
-  a.probability.resize(kept);
+  a.probability.truncate(kept);
   for (std::vector<double>* list : along) list->resize(kept);
 }
 
@@ -94,8 +96,12 @@ void drop_impossible_starts(MdpArrays& a) {
 }
 
 void drop_redundant_arrays(MdpArrays& a) {
-  const auto is_one = [](double p) { return p == 1.0; };
-  if (std::all_of(a.probability.begin(), a.probability.end(), is_one)) release(a.probability);
+  bool certain = true;
+  for (std::size_t o = 0; o < a.probability.size() && certain; ++o) {
+    certain = a.probability[o] == 1.0;
+  }
+  if (certain) a.probability = {};
+  a.probability.trim();
   // No choice is without outcome, so equal numbers mean one outcome for each.
   if (a.next.size() == a.action.size()) release(a.outcome_begin);
   const double share = 1.0 / static_cast<double>(a.start.size());
@@ -168,7 +174,7 @@ const RewardStructure* Mdp::find_rewards(std::string_view name) const {
 std::uint64_t Mdp::bytes() const {
   const auto held = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
   std::uint64_t total = held(a_.choice_begin) + held(a_.outcome_begin) + held(a_.next) +
-                        held(a_.probability) + held(a_.reward) + held(a_.outcome_reward) +
+                        a_.probability.bytes() + held(a_.reward) + held(a_.outcome_reward) +
                         held(a_.action) + held(a_.start) + held(a_.start_probability) +
                         held(a_.terminal) + a_.state_names.bytes() + a_.action_names.bytes() +
                         ends_.size() / 8;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "quoll/base/error.hpp"
+#include "quoll/model/column.hpp"
 #include "quoll/model/names.hpp"
 
 namespace quoll {
@@ -55,7 +56,7 @@ struct MdpArrays {
   std::vector<std::uint64_t> choice_begin;   ///< states + 1
   std::vector<std::uint64_t> outcome_begin;  ///< choices + 1; empty = one outcome per choice
   std::vector<State> next;                   ///< per outcome
-  std::vector<double> probability;           ///< per outcome; empty = all 1 (deterministic)
+  Column probability;                        ///< per outcome; empty = all 1 (deterministic)
   /// Per choice: expected reward. make() computes it if outcome_reward is given; it may stay empty
   /// then.
   std::vector<double> reward;

@@ -25,9 +25,9 @@ void trim(std::vector<T>& values) {
 
 // The rows of `values`, segment by segment in a new order. `begin(i)` is the first row of segment
 // i.
-template <class T, class Begin>
-void permute(std::vector<T>& values, const std::vector<std::uint32_t>& order, Begin begin) {
-  std::vector<T> sorted;
+template <class List, class Begin>
+void permute(List& values, const std::vector<std::uint32_t>& order, Begin begin) {
+  List sorted;
   sorted.reserve(values.size());
   for (const std::uint32_t segment : order) {
     for (std::uint64_t row = begin(segment); row < begin(segment + 1); ++row) {
@@ -151,7 +151,7 @@ MdpArrays MdpRows::finish(std::uint32_t states, std::vector<std::uint32_t>& inde
   trim(a.choice_begin);
   trim(a.outcome_begin);
   trim(a.next);
-  trim(a.probability);
+  a.probability.trim();
   trim(a.reward);
   trim(a.outcome_reward);
   trim(a.action);

@@ -30,18 +30,37 @@ struct DeterministicRows {
   double backup(double discount, const double* value, std::uint64_t choice) const {
     return reward[choice] + discount * value[next[choice]];
   }
+  /// The value of taking a choice of s until it leads away: (r + g E[V(s'); s' != s]) / (1 - g
+  /// P(s)), for discounts below 1.
+  double leave(double discount, const double* value, std::uint64_t choice, State s) const {
+    if (next[choice] == s) return reward[choice] / (1.0 - discount);
+    return backup(discount, value, choice);
+  }
 };
 
+struct PlainNumbers {
+  const double* number;
+  explicit PlainNumbers(const Column& column) : number(column.plain()) {}
+  double operator[](std::uint64_t i) const { return number[i]; }
+};
+struct CodedNumbers {
+  const std::uint8_t* code;
+  const double* table;
+  explicit CodedNumbers(const Column& column) : code(column.codes()), table(column.table()) {}
+  double operator[](std::uint64_t i) const { return table[code[i]]; }
+};
+
+template <class Numbers>
 struct StochasticRows {
   const double* reward;
   const State* next;
-  const double* probability;
+  Numbers probability;
   const std::uint64_t* begin;  // null = one outcome per choice
 
   explicit StochasticRows(const Mdp& mdp)
       : reward(mdp.arrays().reward.data()),
         next(mdp.arrays().next.data()),
-        probability(mdp.arrays().probability.data()),
+        probability(mdp.arrays().probability),
         begin(mdp.arrays().outcome_begin.empty() ? nullptr : mdp.arrays().outcome_begin.data()) {}
 
   /// reward + discount * expected value after a choice, summed in the order of the outcomes.
@@ -53,13 +72,32 @@ struct StochasticRows {
     }
     return reward[choice] + discount * mean;
   }
+  /// As DeterministicRows::leave.
+  double leave(double discount, const double* value, std::uint64_t choice, State s) const {
+    const std::uint64_t end = begin ? begin[choice + 1] : choice + 1;
+    double mean = 0.0;
+    double stay = 0.0;
+    for (std::uint64_t o = begin ? begin[choice] : choice; o < end; ++o) {
+      const double p = probability[o];
+      mean += p * (next[o] == s ? 0.0 : value[next[o]]);
+      stay += next[o] == s ? p : 0.0;
+    }
+    return (reward[choice] + discount * mean) / (1.0 - discount * stay);
+  }
 };
+
+/// work(rows) with the rows of the model's kind.
+template <class Work>
+decltype(auto) with_rows(const Mdp& mdp, const Work& work) {
+  if (mdp.deterministic()) return work(DeterministicRows(mdp));
+  if (mdp.arrays().probability.coded()) return work(StochasticRows<CodedNumbers>(mdp));
+  return work(StochasticRows<PlainNumbers>(mdp));
+}
 
 /// One backup of any model; for loops outside the kernel.
 inline double backup(const Mdp& mdp, double discount, const double* value, std::uint64_t choice) {
-  discount = mdp.carry(discount);
-  if (mdp.deterministic()) return DeterministicRows(mdp).backup(discount, value, choice);
-  return StochasticRows(mdp).backup(discount, value, choice);
+  return with_rows(
+      mdp, [&](const auto& rows) { return rows.backup(mdp.carry(discount), value, choice); });
 }
 
 struct StateRange {
@@ -69,9 +107,8 @@ struct StateRange {
 };
 
 template <class Rows, class Backend>
-void sweep_range(const Mdp& mdp, double discount, const double* value, StateRange range,
-                 Backend& backend) {
-  const Rows rows(mdp);
+void sweep_range(const Mdp& mdp, const Rows& rows, double discount, const double* value,
+                 StateRange range, Backend& backend) {
   const State count = range.end - range.begin;
   for (State i = 0; i < count; ++i) {
     const State s = range.backward ? range.end - 1 - i : range.begin + i;
@@ -95,11 +132,8 @@ void sweep_range(const Mdp& mdp, double discount, const double* value, StateRang
 template <class Backend>
 void sweep(const Mdp& mdp, double discount, const double* value, StateRange range,
            Backend& backend) {
-  if (mdp.deterministic()) {
-    sweep_range<DeterministicRows>(mdp, discount, value, range, backend);
-  } else {
-    sweep_range<StochasticRows>(mdp, discount, value, range, backend);
-  }
+  with_rows(mdp,
+            [&](const auto& rows) { sweep_range(mdp, rows, discount, value, range, backend); });
 }
 
 /// In place; keeps the largest change.

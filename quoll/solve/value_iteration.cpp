@@ -42,11 +42,7 @@ class ValueIteration {
       const std::uint64_t begin = part * part_size;
       const std::uint64_t end = std::min(mdp_.states(), begin + part_size);
       const StateRange range{static_cast<State>(begin), static_cast<State>(end)};
-      if (mdp_.deterministic()) {
-        sweep_part(DeterministicRows(mdp_), range, residuals[part]);
-      } else {
-        sweep_part(StochasticRows(mdp_), range, residuals[part]);
-      }
+      with_rows(mdp_, [&](const auto& rows) { sweep_part(rows, range, residuals[part]); });
     });
     Residual all = none;
     for (const Residual& part : residuals) {

@@ -31,19 +31,6 @@ namespace {
 
 constexpr std::uint32_t band_layers = 4;
 
-// (r + g E[V(s'); s' != s]) / (1 - g P(s)): the value of staying with a choice until it leads away.
-double leave(const Mdp& mdp, double discount, const double* value, std::uint64_t choice, State s) {
-  double mean = 0.0;
-  double stay = 0.0;
-  for (std::uint64_t o = mdp.outcome_begin(choice); o < mdp.outcome_end(choice); ++o) {
-    const State next = mdp.next(o);
-    const double p = mdp.probability(o);
-    mean += p * (next == s ? 0.0 : value[next]);
-    stay += next == s ? p : 0.0;
-  }
-  return (mdp.reward(choice) + discount * mean) / (1.0 - discount * stay);
-}
-
 class Wavefront {
  public:
   explicit Wavefront(Discounted& run) : run_(run), mdp_(run.mdp()) { make_bands(); }
@@ -52,22 +39,26 @@ class Wavefront {
 
   // Steps 2 to 4 from the first band to the last.
   void pass(double aim) {
+    with_rows(mdp_, [&](const auto& rows) { pass(rows, aim); });
+  }
+
+ private:
+  template <class Rows>
+  void pass(const Rows& rows, double aim) {
     std::vector<double> change(bands(), infinity);
     std::size_t rear = 0;
     for (std::size_t front = 1; rear < bands(); front = std::min(front + 1, bands())) {
       double most = 0.0;
       for (std::size_t b = rear; b < front; ++b) {
-        change[b] = improve(band_begin_[b], band_begin_[b + 1]);
+        change[b] = improve(rows, band_begin_[b], band_begin_[b + 1]);
         most = std::max(most, change[b]);
       }
-      evaluate_backward(band_begin_[rear], band_begin_[front]);
-      evaluate_forward(band_begin_[rear], band_begin_[front]);
+      evaluate(rows, band_begin_[rear], band_begin_[front]);
       if (!run_.count(3 * (band_begin_[front] - band_begin_[rear]), most)) return;
       while (rear < front && change[rear] <= aim) ++rear;
     }
   }
 
- private:
   // Step 1. States that cannot reach an end make a last band.
   void make_bands() {
     const std::vector<std::uint32_t> moves = moves_to_end(mdp_);
@@ -91,7 +82,8 @@ class Wavefront {
   }
 
   // Step 2: the largest change.
-  double improve(std::uint64_t begin, std::uint64_t end) {
+  template <class Rows>
+  double improve(const Rows& rows, std::uint64_t begin, std::uint64_t end) {
     double* const value = run_.value().data();
     double most = 0.0;
     for (std::uint64_t i = begin; i < end; ++i) {
@@ -99,7 +91,7 @@ class Wavefront {
       const std::uint64_t first = mdp_.choice_begin(s);
       double best = -infinity;
       for (std::uint64_t c = first; c < mdp_.choice_end(s); ++c) {
-        const double q = leave(mdp_, run_.discount(), value, c, s);
+        const double q = rows.leave(run_.discount(), value, c, s);
         if (!(q > best)) continue;
         best = q;
         run_.policy()[s] = static_cast<Action>(c - first);
@@ -111,15 +103,15 @@ class Wavefront {
   }
 
   // Step 3.
-  void evaluate(State s) {
+  template <class Rows>
+  void evaluate(const Rows& rows, std::uint64_t begin, std::uint64_t end) {
     double* const value = run_.value().data();
-    value[s] = leave(mdp_, run_.discount(), value, mdp_.choice_begin(s) + run_.policy()[s], s);
-  }
-  void evaluate_forward(std::uint64_t begin, std::uint64_t end) {
-    for (std::uint64_t i = begin; i < end; ++i) evaluate(order_[i]);
-  }
-  void evaluate_backward(std::uint64_t begin, std::uint64_t end) {
-    for (std::uint64_t i = end; i > begin; --i) evaluate(order_[i - 1]);
+    const auto visit = [&](State s) {
+      const std::uint64_t choice = mdp_.choice_begin(s) + run_.policy()[s];
+      value[s] = rows.leave(run_.discount(), value, choice, s);
+    };
+    for (std::uint64_t i = end; i > begin; --i) visit(order_[i - 1]);
+    for (std::uint64_t i = begin; i < end; ++i) visit(order_[i]);
   }
 
   Discounted& run_;

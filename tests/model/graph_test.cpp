@@ -209,7 +209,8 @@ TEST(Graph, EndComponentsPeelALongWalkInLinearTime) {
   a.choice_begin = {0, 0};
   for (State s = 1; s < n; ++s) {
     a.next.insert(a.next.end(), {s - 1, std::min(s + 1, n - 1)});
-    a.probability.insert(a.probability.end(), {0.5, 0.5});
+    a.probability.push_back(0.5);
+    a.probability.push_back(0.5);
     a.reward.push_back(0.0);
     a.action.push_back(0);
     a.outcome_begin.push_back(a.next.size());

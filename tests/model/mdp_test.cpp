@@ -131,10 +131,10 @@ TEST(Mdp, DeclaredTerminalStatesMayHaveMoves) {
 
 TEST(Mdp, RefusesWithTheNamesOfStateAndAction) {
   MdpArrays a = two_states();
-  a.probability[1] = 0.0;
+  a.probability.set(1, 0.0);
   EXPECT_EQ(refusal(a), "state HALL, action To-CAVE: probabilities sum to 0.9, expected 1");
   a.choice_line = {7, 8};
-  a.probability[1] = 0.1 + 2e-9;
+  a.probability.set(1, 0.1 + 2e-9);
   const auto made = Mdp::make(a);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().line, 7u);
@@ -145,7 +145,7 @@ TEST(Mdp, RefusesWithTheNamesOfStateAndAction) {
   a.probability = {1.5, -0.5, 1.0};
   EXPECT_EQ(refusal(a), "state HALL, action To-CAVE: probability 1.5 is outside [0, 1]");
   a = two_states();
-  a.probability[2] = std::nan("");
+  a.probability.set(2, std::nan(""));
   EXPECT_EQ(refusal(a), "state HALL, action wait: probability nan is outside [0, 1]");
   a = two_states();
   a.reward[1] = -HUGE_VAL;

@@ -109,7 +109,8 @@ class Race {
     const auto begin = a_.next.begin() + static_cast<std::ptrdiff_t>(a_.outcome_begin.back());
     const auto same = std::find(begin, a_.next.end(), next);
     if (same != a_.next.end()) {
-      a_.probability[static_cast<std::size_t>(same - a_.next.begin())] += probability;
+      const auto o = static_cast<std::size_t>(same - a_.next.begin());
+      a_.probability.set(o, a_.probability[o] + probability);
       return;
     }
     a_.next.push_back(next);
