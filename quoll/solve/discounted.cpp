@@ -15,14 +15,14 @@ Discounted::Discounted(const Mdp& mdp, const SolveSettings& settings, double dis
       settings_(settings),
       discount_(discount),
       scale_(mdp),
+      start_(start_bounds(scale_, discount, mdp)),
       value_(mdp.states(), 0.0),
       backed_up_(mdp.states(), 0.0) {
   solution_.method = method;
   solution_.discount = discount;
   solution_.policy.assign(mdp.states(), no_action);
-  const double low = std::min(0.0, mdp.reward_bounds().first) / (1.0 - discount);
   for (State s = 0; s < mdp.states(); ++s) {
-    if (!mdp.terminal(s)) value_[s] = low;
+    if (!mdp.terminal(s) && start_.lower > -infinity) value_[s] = start_.lower;
   }
 }
 
@@ -73,13 +73,14 @@ bool Discounted::count(std::uint64_t updates, double change) {
   return !stopped_;
 }
 
+// The larger of two inductive lower bounds is one again, as is the smaller of two upper ones.
 Solution Discounted::finish() {
   solution_.lower = std::move(value_);
   solution_.upper = solution_.lower;
   for (State s = 0; s < mdp_.states(); ++s) {
     if (mdp_.terminal(s)) continue;
-    solution_.lower[s] = add_down(solution_.lower[s], bounds_.lower);
-    solution_.upper[s] = add_up(solution_.upper[s], bounds_.upper);
+    solution_.lower[s] = std::max(add_down(solution_.lower[s], bounds_.lower), start_.lower);
+    solution_.upper[s] = std::min(add_up(solution_.upper[s], bounds_.upper), start_.upper);
   }
   conclude(mdp_, solution_, settings_.width);
   return std::move(solution_);

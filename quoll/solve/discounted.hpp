@@ -11,8 +11,8 @@
 
 namespace quoll {
 
-/// A solve under way. V: value(), at first min(0, least reward) / (1 - discount) and 0 at ends,
-/// which is a lower bound on V* that sweeps in place keep.
+/// A solve under way. V: value(), at first the lower one of start_bounds() and 0 at ends, a bound on
+/// V* that sweeps in place keep.
 class Discounted {
  public:
   Discounted(const Mdp& mdp, const SolveSettings& settings, double discount,
@@ -54,6 +54,7 @@ class Discounted {
   const SolveSettings& settings_;
   double discount_;
   ModelScale scale_;
+  StartBounds start_;
   Solution solution_;
   std::vector<double> value_, backed_up_;
   SpanBounds bounds_{-infinity, infinity, infinity};

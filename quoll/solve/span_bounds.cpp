@@ -58,4 +58,19 @@ SpanBounds span_bounds(const ModelScale& scale, double discount, double least, d
   return {-constant(-least), constant(greatest), rounding};
 }
 
+// For a constant U >= 0: r + g rho U + e <= U if U = (r + e) / (1 - g rho), e being the error of a
+// sweep over values of the size of U.
+StartBounds start_bounds(const ModelScale& scale, double discount, const Mdp& mdp) {
+  const double rest = next_down(1.0 - next_up(Discount(discount).upper * scale.greatest_row_sum));
+  if (!(rest > 0.0)) return {-infinity, infinity};
+  const auto constant = [&](double reward) {
+    if (!(reward > 0.0)) return 0.0;
+    const double operations = static_cast<double>(scale.most_outcomes) + 8.0;
+    const double size = reward / rest;
+    return (reward + 8.0 * half_ulp * operations * (reward + size)) / rest;
+  };
+  const auto [low, high] = mdp.reward_bounds();
+  return {-constant(-low), constant(high)};
+}
+
 }  // namespace quoll

@@ -35,4 +35,14 @@ struct SpanBounds {
 SpanBounds span_bounds(const ModelScale& scale, double discount, double least, double greatest,
                        double size);
 
+/// Constants that bound V* and every policy's value before anything is computed: min(0, least
+/// reward) / (1 - discount) and max(0, greatest reward) / (1 - discount), moved outward until a
+/// checker's own sweep with directed rounding accepts them. Infinite if the discount leaves no
+/// contraction.
+struct StartBounds {
+  double lower;
+  double upper;
+};
+StartBounds start_bounds(const ModelScale& scale, double discount, const Mdp& mdp);
+
 }  // namespace quoll

@@ -242,6 +242,31 @@ TEST(SolverSuite, LeastCostIsTheMirroredProblem) {
   }
 }
 
+TEST(SolverSuite, ASolveStoppedAtOnceIsNoWiderThanTheRewardsAllow) {
+  // Rewards of -1 at discount 0.99: between -100 and 0, whatever the method has done.
+  Grid grid = make_maze({});
+  grid.slip = 0.2;
+  grid.discount = 0.99;
+  const Result<Mdp> mdp = to_mdp(grid);
+  ASSERT_TRUE(mdp);
+  for (const SolverEntry& entry : solvers()) {
+    if (!entry.needs_discount && entry.name != "value-iteration") continue;
+    SCOPED_TRACE(entry.name);
+    SolveSettings settings;
+    settings.keep_going = [](const SolveProgress&) { return false; };
+    const auto found = solve(*mdp, settings, entry.name);
+    ASSERT_TRUE(found) << message(found.error());
+    EXPECT_FALSE(found->converged);
+    for (State s = 0; s < mdp->states(); ++s) {
+      ASSERT_GE(found->lower[s], -100.0000001);
+      ASSERT_LE(found->upper[s], 0.0);
+    }
+    const auto verdict = verify(*mdp, found->lower, found->upper, found->policy, 0.99);
+    ASSERT_TRUE(verdict);
+    EXPECT_TRUE(verdict->accepted) << verdict->reason;
+  }
+}
+
 TEST(SolverSuite, AStoppedSolveStillHoldsTheTruth) {
   for (const SolverEntry& entry : solvers()) {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
