@@ -11,8 +11,8 @@
 
 namespace quoll {
 
-/// A solve under way. V: value(), at first the lower one of start_bounds() and 0 at ends, a bound on
-/// V* that sweeps in place keep.
+/// A solve under way. V: value(), at first the lower one of start_bounds() and 0 at ends, a bound
+/// on V* that sweeps in place keep.
 class Discounted {
  public:
   Discounted(const Mdp& mdp, const SolveSettings& settings, double discount,

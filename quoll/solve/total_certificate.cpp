@@ -9,6 +9,7 @@
 #include "quoll/solve/induced.hpp"
 #include "quoll/solve/rounding.hpp"
 #include "quoll/solve/sweep.hpp"
+#include "quoll/solve/wavefront.hpp"
 
 namespace quoll {
 
@@ -115,26 +116,50 @@ class Prover {
       }
     }
     moves_.assign(mdp_.states(), 0.0);
+    const auto raise = [&](State s) {
+      double most = moves_[s];
+      for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
+        if (near[c]) most = std::max(most, 1.0 + mean(moves_, c));
+      }
+      const double change = most - moves_[s];
+      moves_[s] = most;
+      return change;
+    };
+    return free_.count == 0 ? count_along_wave(raise) : count_to_and_fro(raise);
+  }
+
+  static constexpr double settled = 0.25;  // moves a sweep may still add
+  static constexpr double most_moves = 1e9;
+
+  template <class Raise>
+  bool count_along_wave(const Raise& raise) {
+    constexpr std::uint64_t most_updates_of_each = 200'000;
+    for (State s = 0; s < mdp_.states(); ++s) moves_[s] = live_[s] != 0 ? 0.0 : -infinity;
+    std::uint64_t updates = 0;
+    Wavefront wave(mdp_, moves_);
+    for (State s = 0; s < mdp_.states(); ++s) moves_[s] = 0.0;
+    const auto count = [&](std::uint64_t updated, double change) {
+      updates += updated;
+      return change < most_moves && updates / mdp_.states() < most_updates_of_each;
+    };
+    return wave.follow(settled, count, raise, raise);
+  }
+
+  template <class Raise>
+  bool count_to_and_fro(const Raise& raise) {
     constexpr unsigned most_sweeps = 200'000;
-    constexpr double most_moves = 1e9;
     bool backward = true;
     double change = 1.0;
-    for (unsigned k = 0; k < most_sweeps && change > 0.25 && change < most_moves; ++k) {
+    for (unsigned k = 0; k < most_sweeps && change > settled && change < most_moves; ++k) {
       change = 0.0;
       for (State i = 0; i < mdp_.states(); ++i) {
         const State s = backward ? static_cast<State>(mdp_.states()) - 1 - i : i;
-        if (live_[s] == 0) continue;
-        double most = moves_[s];
-        for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
-          if (near[c]) most = std::max(most, 1.0 + mean(moves_, c));
-        }
-        change = std::max(change, most - moves_[s]);
-        moves_[s] = most;
+        if (live_[s] != 0) change = std::max(change, raise(s));
       }
       share(moves_);
       backward = !backward;
     }
-    return change <= 0.25;
+    return change <= settled;
   }
 
   double mean(const std::vector<double>& of, std::uint64_t c) const {

@@ -10,12 +10,15 @@
 #include "quoll/solve/methods.hpp"
 #include "quoll/solve/sweep.hpp"
 #include "quoll/solve/total_certificate.hpp"
+#include "quoll/solve/wavefront.hpp"
 
 // Total reward without discounting, for policies that end. Bertsekas and Tsitsiklis 1991
 // (stochastic shortest paths); upper bound by guess and inductive proof: Hartmanns and Kaminski
 // 2020 (optimistic value iteration). Rewards may have both signs.
 //
-//   1  pi <- a policy that ends with probability 1 from every live state
+//   1  pi <- a policy that ends with probability 1 from every live state; where the ends are far,
+//   the
+//      one to which a wave of sweeps from the ends leads, with its V, if that one ends too
 //   2  evaluate pi in place, at first roughly; switch an action only if it is better by more than
 //      rounding: with accurate values pi then keeps ending, because no cycle gains
 //   3  repeat until nothing switches after an accurate evaluation V; if rough values led to a
@@ -48,6 +51,7 @@ class EndingIteration {
 
   /// `patient`: never switches before an accurate evaluation, which is Howard's method and slow.
   Solution run(bool patient) {
+    if (!patient) follow_wave();
     std::uint64_t patience = patient ? settings_.max_sweeps : 10'000;
     while (go_on_) {
       const double change = evaluate(patience);
@@ -72,6 +76,32 @@ class EndingIteration {
       if (live_[s] != 0) size = std::max(size, std::fabs(value_[s]));
     }
     return 8.0 * half_ulp * size;
+  }
+
+  // Step 1. The guess is worse than what states are worth, so that the wave does not run after it.
+  void follow_wave() {
+    constexpr std::size_t least_bands = 8;
+    constexpr std::uint64_t most_sweeps = 500;
+    std::vector<double> value = value_;
+    std::vector<Action> policy = solution_.policy;
+    Wavefront wave(mdp_, value);
+    if (wave.bands() < least_bands) return;
+    wave.guess(2.0 * std::min(0.0, mdp_.reward_bounds().first));
+    const double aim = 32.0 * half_ulp * reward_size_ * static_cast<double>(4 * wave.bands());
+    std::uint64_t updates = 0;
+    const bool done = wave.iterate(1.0, aim, policy, [&](std::uint64_t updated, double change) {
+      updates += updated;
+      solution_.backups += updated;
+      solution_.sweeps = updates / mdp_.states();
+      go_on_ = may_continue(settings_, solution_, change);
+      return go_on_ && updates < most_sweeps * mdp_.states();
+    });
+    if (!done) return;
+    const Result<Mdp> chain =
+        induced_model(mdp_, as_probabilities(mdp_, policy), std::nullopt, outside_);
+    if (!chain || !ends(*chain)) return;
+    value_ = std::move(value);
+    solution_.policy = std::move(policy);
   }
 
   // Step 2, first half. Returns the last change. Counts evaluations in a row that were given up

@@ -1,3 +1,5 @@
+#include "quoll/solve/wavefront.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -6,7 +8,6 @@
 #include "quoll/model/graph.hpp"
 #include "quoll/solve/discounted.hpp"
 #include "quoll/solve/methods.hpp"
-#include "quoll/solve/sweep.hpp"
 
 // Value iteration that follows the wave of news from the ends. The order is that of backward value
 // iteration (Dai and Goldsmith 2007); the window is Quoll's.
@@ -23,7 +24,8 @@
 // A sweep over all states in a good order still needs hundreds of rounds when episodes are long,
 // because every slip off the order waits for the next sweep. Here a state is swept until what lies
 // before it has settled, a few dozen times, while its rows are in the cache, and never again.
-// V: run.value(), pi: run.policy(), g: discount, P(s): probability to stay.
+// V: value, pi: policy, g: discount, P(s): probability to stay. At discount 1 (undiscounted.cpp)
+// the same finds a policy that ends, from a guess of V.
 
 namespace quoll {
 
@@ -31,104 +33,73 @@ namespace {
 
 constexpr std::uint32_t band_layers = 4;
 
-class Wavefront {
- public:
-  explicit Wavefront(Discounted& run) : run_(run), mdp_(run.mdp()) { make_bands(); }
+}  // namespace
 
-  std::size_t bands() const { return band_begin_.size() - 1; }
-
-  // Steps 2 to 4 from the first band to the last.
-  void pass(double aim) {
-    with_rows(mdp_, [&](const auto& rows) { pass(rows, aim); });
+// Step 1. States that cannot reach an end make a last band.
+Wavefront::Wavefront(const Mdp& mdp, std::vector<double>& value) : mdp_(mdp), value_(value) {
+  const std::vector<std::uint32_t> moves = moves_to_end(mdp);
+  std::uint32_t deepest = 0;
+  for (const std::uint32_t m : moves) deepest = m == unreached ? deepest : std::max(deepest, m);
+  const auto layer_of = [&](State s) { return moves[s] == unreached ? deepest + 1 : moves[s]; };
+  const auto left_out = [&](State s) { return mdp.terminal(s) || value[s] == -infinity; };
+  std::vector<std::uint64_t> layer_end(deepest + 3, 0);
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (!left_out(s)) ++layer_end[layer_of(s) + 1];
   }
-
- private:
-  template <class Rows>
-  void pass(const Rows& rows, double aim) {
-    std::vector<double> change(bands(), infinity);
-    std::size_t rear = 0;
-    for (std::size_t front = 1; rear < bands(); front = std::min(front + 1, bands())) {
-      double most = 0.0;
-      for (std::size_t b = rear; b < front; ++b) {
-        change[b] = improve(rows, band_begin_[b], band_begin_[b + 1]);
-        most = std::max(most, change[b]);
-      }
-      evaluate(rows, band_begin_[rear], band_begin_[front]);
-      if (!run_.count(3 * (band_begin_[front] - band_begin_[rear]), most)) return;
-      while (rear < front && change[rear] <= aim) ++rear;
-    }
+  for (std::size_t i = 1; i < layer_end.size(); ++i) layer_end[i] += layer_end[i - 1];
+  band_begin_.push_back(0);
+  for (std::size_t layer = band_layers; layer < layer_end.size(); layer += band_layers) {
+    if (layer_end[layer] > band_begin_.back()) band_begin_.push_back(layer_end[layer]);
   }
-
-  // Step 1. States that cannot reach an end make a last band.
-  void make_bands() {
-    const std::vector<std::uint32_t> moves = moves_to_end(mdp_);
-    std::uint32_t deepest = 0;
-    for (const std::uint32_t m : moves) deepest = m == unreached ? deepest : std::max(deepest, m);
-    const auto layer_of = [&](State s) { return moves[s] == unreached ? deepest + 1 : moves[s]; };
-    std::vector<std::uint64_t> layer_end(deepest + 3, 0);
-    for (State s = 0; s < mdp_.states(); ++s) {
-      if (!mdp_.terminal(s)) ++layer_end[layer_of(s) + 1];
-    }
-    for (std::size_t i = 1; i < layer_end.size(); ++i) layer_end[i] += layer_end[i - 1];
-    band_begin_.push_back(0);
-    for (std::size_t layer = band_layers; layer < layer_end.size(); layer += band_layers) {
-      if (layer_end[layer] > band_begin_.back()) band_begin_.push_back(layer_end[layer]);
-    }
-    if (layer_end.back() > band_begin_.back()) band_begin_.push_back(layer_end.back());
-    order_.resize(layer_end.back());
-    for (State s = 0; s < mdp_.states(); ++s) {
-      if (!mdp_.terminal(s)) order_[layer_end[layer_of(s)]++] = s;
-    }
+  if (layer_end.back() > band_begin_.back()) band_begin_.push_back(layer_end.back());
+  order_.resize(layer_end.back());
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (!left_out(s)) order_[layer_end[layer_of(s)]++] = s;
   }
+}
 
-  // Step 2: the largest change.
-  template <class Rows>
-  double improve(const Rows& rows, std::uint64_t begin, std::uint64_t end) {
-    double* const value = run_.value().data();
-    double most = 0.0;
-    for (std::uint64_t i = begin; i < end; ++i) {
-      const State s = order_[i];
+void Wavefront::guess(double per_move) {
+  for (std::size_t b = 0; b < bands(); ++b) {
+    const double value = per_move * static_cast<double>(band_layers * (b + 1));
+    for (std::uint64_t i = band_begin_[b]; i < band_begin_[b + 1]; ++i) value_[order_[i]] = value;
+  }
+}
+
+// Steps 2 and 3.
+bool Wavefront::iterate(double discount, double aim, std::vector<Action>& policy,
+                        const Count& count) {
+  double* const value = value_.data();
+  return with_rows(mdp_, [&](const auto& rows) {
+    const auto improve = [&](State s) {
       const std::uint64_t first = mdp_.choice_begin(s);
       double best = -infinity;
       for (std::uint64_t c = first; c < mdp_.choice_end(s); ++c) {
-        const double q = rows.leave(run_.discount(), value, c, s);
+        const double q = rows.leave(discount, value, c, s);
         if (!(q > best)) continue;
         best = q;
-        run_.policy()[s] = static_cast<Action>(c - first);
+        policy[s] = static_cast<Action>(c - first);
       }
-      most = std::max(most, std::fabs(best - value[s]));
+      const double change = std::fabs(best - value[s]);
       value[s] = best;
-    }
-    return most;
-  }
-
-  // Step 3.
-  template <class Rows>
-  void evaluate(const Rows& rows, std::uint64_t begin, std::uint64_t end) {
-    double* const value = run_.value().data();
-    const auto visit = [&](State s) {
-      const std::uint64_t choice = mdp_.choice_begin(s) + run_.policy()[s];
-      value[s] = rows.leave(run_.discount(), value, choice, s);
+      return change;
     };
-    for (std::uint64_t i = end; i > begin; --i) visit(order_[i - 1]);
-    for (std::uint64_t i = begin; i < end; ++i) visit(order_[i]);
-  }
-
-  Discounted& run_;
-  const Mdp& mdp_;
-  std::vector<State> order_;               // all states that are no ends, layer by layer
-  std::vector<std::uint64_t> band_begin_;  // into order_, and its end
-};
-
-}  // namespace
+    const auto evaluate = [&](State s) {
+      value[s] = rows.leave(discount, value, mdp_.choice_begin(s) + policy[s], s);
+    };
+    return follow(aim, count, improve, evaluate);
+  });
+}
 
 bool wavefront(Discounted& run, std::size_t least_bands) {
-  Wavefront wave(run);
+  Wavefront wave(run.mdp(), run.value());
+  const auto count = [&](std::uint64_t updates, double change) {
+    return run.count(updates, change);
+  };
   if (wave.bands() < least_bands) return false;
   if (run.certify()) return true;
   double aim = run.aim();
   do {
-    wave.pass(aim);
+    wave.iterate(run.discount(), aim, run.policy(), count);
     aim *= 0.25;
   } while (!run.certify());
   return true;
