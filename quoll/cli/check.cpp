@@ -6,11 +6,11 @@
 
 #include <algorithm>
 
+#include "quoll/base/json.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/model/formats/format.hpp"
-#include "quoll/report/json.hpp"
 
 namespace quoll::cli {
 namespace {

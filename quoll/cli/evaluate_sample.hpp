@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "quoll/base/json.hpp"
 #include "quoll/experiment/evaluation.hpp"
-#include "quoll/report/json.hpp"
 
 namespace quoll::cli {
 

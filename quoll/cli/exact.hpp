@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "quoll/base/json.hpp"
 #include "quoll/cli/common.hpp"
 #include "quoll/model/mdp.hpp"
 #include "quoll/model/solution.hpp"
-#include "quoll/report/json.hpp"
 #include "quoll/solve/optimality.hpp"
 
 namespace quoll::cli {

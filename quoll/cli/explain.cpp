@@ -8,12 +8,12 @@
 #include <cmath>
 #include <optional>
 
+#include "quoll/base/json.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/initial_rewards.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/experiment/config.hpp"
 #include "quoll/report/explain_text.hpp"
-#include "quoll/report/json.hpp"
 
 namespace quoll::cli {
 namespace {

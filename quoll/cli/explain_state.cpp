@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "quoll/base/json.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/explain.hpp"
 #include "quoll/cli/learn_report.hpp"
 #include "quoll/report/explain_text.hpp"
-#include "quoll/report/json.hpp"
 #include "quoll/solve/solver.hpp"
 
 namespace quoll::cli {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "quoll/base/json.hpp"
 #include "quoll/cli/common.hpp"
-#include "quoll/report/json.hpp"
 
 namespace quoll::cli {
 

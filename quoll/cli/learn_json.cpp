@@ -1,7 +1,7 @@
 // The JSON object of `learn` (docs/json.md).
 
+#include "quoll/base/json.hpp"
 #include "quoll/cli/learn_report.hpp"
-#include "quoll/report/json.hpp"
 
 namespace quoll::cli {
 namespace {

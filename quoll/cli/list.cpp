@@ -6,12 +6,12 @@
 
 #include "quoll/act/exploration.hpp"
 #include "quoll/act/start.hpp"
+#include "quoll/base/json.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/learn/learner.hpp"
 #include "quoll/model/formats/format.hpp"
-#include "quoll/report/json.hpp"
 #include "quoll/solve/solver.hpp"
 
 namespace quoll::cli {

@@ -10,13 +10,13 @@
 
 #include "quoll/act/policy.hpp"
 #include "quoll/base/file.hpp"
+#include "quoll/base/json_tree.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
 #include "quoll/cli/policy_file.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/experiment/player.hpp"
 #include "quoll/report/drawing_svg.hpp"
-#include "quoll/report/json_tree.hpp"
 
 namespace quoll::cli {
 namespace {

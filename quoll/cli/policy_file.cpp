@@ -3,10 +3,12 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
+#include <variant>
 
 #include "quoll/base/file.hpp"
+#include "quoll/base/json_tree.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/judged_run.hpp"
 #include "quoll/experiment/run.hpp"
@@ -16,8 +18,6 @@
 
 namespace quoll::cli {
 namespace {
-
-using Json = nlohmann::json;
 
 /// Collects named pairs of a file into one action per state.
 class PolicyBuilder {
@@ -106,61 +106,51 @@ Result<std::vector<Action>> read_csv_policy(const std::string& path, const Mdp& 
   return builder.take();
 }
 
-/// The content as JSON, or the place where it stops to be.
-Result<Json> parse_json(const std::string& content, const std::string& path) {
-  try {
-    return Json::parse(content);
-  } catch (const Json::parse_error& error) {
-    Error place{path, 1, 1, "not JSON", ""};
-    for (std::size_t i = 0; i + 1 < error.byte && i < content.size(); ++i) {
-      place.column = content[i] == '\n' ? 1 : place.column + 1;
-      place.line += content[i] == '\n';
+Result<void> add_json_row(PolicyBuilder& builder, const Tree& row, Error place) {
+  const std::string where = std::exchange(place.expected, "");
+  const Tree* const state = row.find("state");
+  const Tree* const action = row.find("action");
+  const bool named = state && std::holds_alternative<std::string>(state->value);
+  if (named && action) {
+    const std::string& name = std::get<std::string>(state->value);
+    if (std::holds_alternative<std::nullptr_t>(action->value)) {
+      return builder.add(name, std::nullopt, place);
     }
-    return place;
+    if (const auto* const text = std::get_if<std::string>(&action->value)) {
+      return builder.add(name, *text, place);
+    }
+    if (const auto* const number = std::get_if<std::int64_t>(&action->value)) {
+      return builder.add(name, std::to_string(*number), place);
+    }
   }
-}
-
-Result<void> add_json_row(PolicyBuilder& builder, const Json& row, Error place) {
-  const bool object = row.is_object() && row.contains("state") && row["state"].is_string();
-  if (!object || !row.contains("action") ||
-      !(row["action"].is_string() || row["action"].is_null() || row["action"].is_number())) {
-    place.expected += "an object with a state and an action (names) expected";
-    return place;
-  }
-  place.expected.clear();
-  const auto& state = row["state"].get_ref<const std::string&>();
-  if (row["action"].is_null()) return builder.add(state, std::nullopt, std::move(place));
-  const std::string action =
-      row["action"].is_string() ? row["action"].get<std::string>() : row["action"].dump();
-  return builder.add(state, action, std::move(place));
+  place.expected = where + "an object with a state and an action (names) expected";
+  return place;
 }
 
 Result<std::vector<Action>> read_json_policy(const std::string& path, const Mdp& mdp) {
   const Result<std::string> content = read_file(path);
   if (!content) return content.error();
-  const Result<Json> json = parse_json(*content, path);
+  const Result<Tree> json = read_json(*content, path);
   if (!json) return json.error();
-  const char* list = nullptr;
+  const Tree::List* list = nullptr;
+  std::string called;
   for (const char* name : {"policy", "values"}) {
-    if (list == nullptr && json->is_object() && json->contains(name) && (*json)[name].is_array()) {
-      list = name;
-    }
+    const Tree* const found = json->find(name);
+    if (list != nullptr || found == nullptr) continue;
+    list = std::get_if<Tree::List>(&found->value);
+    called = name;
   }
   if (list == nullptr) {
     return Error{path, 0, 0, "a list \"policy\" or \"values\" expected, as learn and solve write",
                  ""};
   }
-  if (json->contains("omitted") && (*json)[list].empty()) {
-    return Error{path, 0, 0,
-                 std::string("the list \"") + list +
-                     "\" was left out; write it with "
-                     "--all",
-                 ""};
+  if (json->find("omitted") != nullptr && list->empty()) {
+    return Error{path, 0, 0, "the list \"" + called + "\" was left out; write it with --all", ""};
   }
   PolicyBuilder builder(mdp);
   std::size_t index = 0;
-  for (const Json& row : (*json)[list]) {
-    const Error place{path, 0, 0, list + ("[" + std::to_string(index++) + "]: "), ""};
+  for (const Tree& row : *list) {
+    const Error place{path, 0, 0, called + "[" + std::to_string(index++) + "]: ", ""};
     const Result<void> added = add_json_row(builder, row, place);
     if (!added) return added.error();
   }

@@ -6,13 +6,13 @@
 
 #include <cmath>
 
+#include "quoll/base/json.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
 #include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/policy_file.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/model/digest.hpp"
-#include "quoll/report/json.hpp"
 
 namespace quoll::cli {
 namespace {

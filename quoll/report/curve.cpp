@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "quoll/base/utf8.hpp"
 #include "quoll/report/axis.hpp"
 #include "quoll/report/progress.hpp"
-#include "quoll/report/utf8.hpp"
 
 namespace quoll {
 

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "quoll/base/json.hpp"
 #include "quoll/learn/update.hpp"
 #include "quoll/model/mdp.hpp"
-#include "quoll/report/json.hpp"
 
 namespace quoll {
 

@@ -1,7 +1,7 @@
 #include "quoll/report/export_policy.hpp"
 
+#include "quoll/base/json.hpp"
 #include "quoll/model/formats/fields.hpp"
-#include "quoll/report/json.hpp"
 
 namespace quoll {
 

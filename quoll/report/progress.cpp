@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "quoll/report/utf8.hpp"
+#include "quoll/base/utf8.hpp"
 
 namespace quoll {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "quoll/report/utf8.hpp"
+#include "quoll/base/utf8.hpp"
 
 namespace quoll {
 

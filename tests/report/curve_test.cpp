@@ -5,8 +5,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "quoll/base/utf8.hpp"
 #include "quoll/report/axis.hpp"
-#include "quoll/report/utf8.hpp"
 
 namespace quoll {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "quoll/report/utf8.hpp"
+#include "quoll/base/utf8.hpp"
 #include "tests/report/worlds.hpp"
 
 namespace quoll {

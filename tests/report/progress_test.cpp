@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "quoll/report/utf8.hpp"
+#include "quoll/base/utf8.hpp"
 
 namespace quoll {
 namespace {

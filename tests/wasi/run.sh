@@ -21,7 +21,7 @@ command -v node >/dev/null || skip "no node (package nodejs)"
 
 # The header-only libraries of the host, without the host's own libc beside them.
 mkdir -p "$out/include"
-for library in fmt toml++ nlohmann xxhash.h xxh3.h; do
+for library in fmt toml++ xxhash.h xxh3.h; do
   ln -sfn "/usr/include/$library" "$out/include/$library"
 done
 

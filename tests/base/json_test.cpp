@@ -1,4 +1,4 @@
-#include "quoll/report/json.hpp"
+#include "quoll/base/json.hpp"
 
 #include <gtest/gtest.h>
 

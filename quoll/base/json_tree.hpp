@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "quoll/base/json.hpp"
 #include "quoll/base/tree.hpp"
-#include "quoll/report/json.hpp"
 
 namespace quoll {
 

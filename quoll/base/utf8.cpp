@@ -1,4 +1,4 @@
-#include "quoll/report/utf8.hpp"
+#include "quoll/base/utf8.hpp"
 
 #include <array>
 

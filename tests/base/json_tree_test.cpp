@@ -1,4 +1,4 @@
-#include "quoll/report/json_tree.hpp"
+#include "quoll/base/json_tree.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ TEST(JsonTree, AFloatIsWrittenAsAFloat) {
 TEST(JsonTree, SaysWhereItIsNotJson) {
   const Result<Tree> read = read_json("{\"a\": 1,\n \"b\": }", "x.json");
   ASSERT_FALSE(read);
-  EXPECT_EQ(message(read.error()), "x.json:2:7: JSON expected");
+  EXPECT_EQ(message(read.error()), "x.json:2:7: a JSON value expected");
   EXPECT_FALSE(read_json("", "x"));
   EXPECT_FALSE(read_json("1 2", "x"));
   EXPECT_FALSE(read_json("nan", "x"));

@@ -1,9 +1,9 @@
-#include "quoll/report/json.hpp"
+#include "quoll/base/json.hpp"
 
 #include <charconv>
 #include <cmath>
 
-#include "quoll/report/utf8.hpp"
+#include "quoll/base/utf8.hpp"
 
 namespace quoll {
 
