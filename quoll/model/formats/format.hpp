@@ -90,6 +90,11 @@ Result<MdpArrays> read_drn(std::string_view content, const std::string& path);
 Result<MdpArrays> read_drn_path(const std::string& path, const Parameters& given);
 Result<std::string> write_drn(const Mdp& mdp);
 
+/// Unified Markov Binary (github.com/pmc-tools/umb, spec.md): docs/formats.md says what Quoll adds.
+Result<MdpArrays> read_umb(std::string_view content, const std::string& path);
+Result<MdpArrays> read_umb_path(const std::string& path);
+Result<std::string> write_umb(const Mdp& mdp);
+
 /// Maps for robots; settings and model: quoll/model/terrain.hpp.
 Result<MdpArrays> read_moving_ai(std::string_view content, const std::string& path,
                                  const Parameters& given);

@@ -17,6 +17,8 @@ constexpr auto table = std::to_array<Format>({
      write_csv, read_csv_path},
     {"grid", ".txt", "a picture in letters: walls, start, goal, pits", read_grid, write_grid,
      nullptr},
+    {"umb", ".umb", "arrays as they lie in memory: Unified Markov Binary, also compressed",
+     read_umb, write_umb, read_umb_path},
     {"moving-ai", ".map", "a map of the Moving AI benchmarks, with --with goal=x,y or scen=FILE",
      nullptr, nullptr, nullptr, read_moving_ai, moving_ai_parameters},
     {"ros-map", ".yaml", "an occupancy map of ROS, with --with goal=x,y in metres", nullptr,
