@@ -92,8 +92,22 @@ Result<std::string> write_drn(const Mdp& mdp);
 
 /// Unified Markov Binary (github.com/pmc-tools/umb, spec.md): docs/formats.md says what Quoll adds.
 Result<MdpArrays> read_umb(std::string_view content, const std::string& path);
-Result<MdpArrays> read_umb_path(const std::string& path);
+Result<MdpArrays> read_umb_path(const std::string& path, const Parameters& given);
 Result<std::string> write_umb(const Mdp& mdp);
+
+/// Gymnasium's env.P as JSON.
+Result<MdpArrays> read_gymnasium(std::string_view content, const std::string& path);
+Result<std::string> write_gymnasium(const Mdp& mdp);
+
+/// Cassandra's format; without observations in a .mdp, with the states themselves in a .pomdp.
+Result<MdpArrays> read_cassandra(std::string_view content, const std::string& path);
+Result<std::string> write_cassandra_mdp(const Mdp& mdp);
+Result<std::string> write_cassandra_pomdp(const Mdp& mdp);
+
+/// PETSc's binary matrices: transitions in the file itself, rewards in the one that --with names.
+Result<MdpArrays> read_petsc(std::string_view content, const std::string& path,
+                             const Parameters& given);
+std::vector<ParameterText> petsc_parameters();
 
 /// Maps for robots; settings and model: quoll/model/terrain.hpp.
 Result<MdpArrays> read_moving_ai(std::string_view content, const std::string& path,

@@ -366,7 +366,7 @@ Result<MdpArrays> read_umb(std::string_view content, const std::string& path) {
   return UmbReader(*archive).read();
 }
 
-Result<MdpArrays> read_umb_path(const std::string& path) {
+Result<MdpArrays> read_umb_path(const std::string& path, const Parameters&) {
   const Result<MappedFile> file = MappedFile::open(path);
   if (!file) return file.error();
   return read_umb(file->bytes(), path);
