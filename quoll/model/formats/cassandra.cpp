@@ -20,7 +20,7 @@ using cassandra::any;
 using cassandra::Rule;
 using cassandra::Rules;
 using cassandra::Word;
-using cassandra::Words;
+using cassandra::WordStream;
 
 constexpr std::array<std::string_view, 9> keywords = {
     "discount", "values", "states", "actions", "observations", "start", "T", "O", "R"};
@@ -109,7 +109,7 @@ class CassandraReader {
     return text + ": read as if the state were seen, they are not kept";
   }
 
-  Words words_;
+  WordStream words_;
   const std::string& path_;
   cassandra::Content content_;
   Listed states_, actions_, observations_;
@@ -159,7 +159,7 @@ bool CassandraReader::read_values() {
 
 // A keyword with its colon, or the end, ends a list.
 bool CassandraReader::ends_list() {
-  Words ahead = words_;
+  WordStream ahead = words_;
   const Word word = ahead.next();
   if (word.text.empty()) return true;
   const bool start = word.text == "start";
@@ -231,7 +231,7 @@ bool CassandraReader::read_start() {
     return take_colon() && read_listed(word.text == "exclude");
   }
   if (word.text != ":") return fail(word, "expected ':', include or exclude" + found(word));
-  Words ahead = words_;
+  WordStream ahead = words_;
   const std::string_view first = ahead.next().text;
   if (first == "uniform") {
     words_.next();
@@ -350,6 +350,13 @@ bool CassandraReader::read_rule_values(char letter, Rule& rule, int levels) {
     words_.next();
     rule.kind = Rule::Kind::identity;
     return true;
+  }
+  if (!number_of(word.text)) {
+    constexpr std::array<std::string_view, 2> words = {"uniform", "identity"};
+    return fail(word,
+                "expected numbers" + std::string(letter == 'R' ? "" : ", uniform or identity") +
+                    found(word),
+                letter == 'R' ? "" : nearest(word.text, words));
   }
   rule.kind = matrix ? Rule::Kind::matrix : Rule::Kind::row;
   rule.values = content_.numbers.size();

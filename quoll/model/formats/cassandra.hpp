@@ -20,9 +20,9 @@ struct Word {
 };
 
 /// The words of a text, between blanks, line ends, colons and comments.
-class Words {
+class WordStream {
  public:
-  explicit Words(std::string_view text) : text_(text) {}
+  explicit WordStream(std::string_view text) : text_(text) {}
 
   Word next() {
     bool comment = false;
@@ -40,7 +40,7 @@ class Words {
     if (begin == at_ && at_ < text_.size()) ++at_;  // the colon
     return {text_.substr(begin, at_ - begin), line_, begin - line_begin_ + 1};
   }
-  Word peek() const { return Words(*this).next(); }
+  Word peek() const { return WordStream(*this).next(); }
 
  private:
   static bool blank(char letter) {

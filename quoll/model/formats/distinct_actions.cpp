@@ -1,70 +1,70 @@
 #include "quoll/model/formats/distinct_actions.hpp"
 
-#include <map>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "quoll/base/text.hpp"
+#include "quoll/model/letters.hpp"
+#include "quoll/model/name_index.hpp"
 
 namespace quoll {
 namespace {
 
-// The names of actions, and the new ones of those met again.
-class Renamer {
- public:
-  explicit Renamer(Names& names) : names_(names) {}
-
-  // The name of an action's choice number `times` in one state, from 2.
-  std::uint32_t renamed(std::uint32_t action, std::uint32_t times) {
-    const auto [entry, fresh] =
-        made_.try_emplace({action, times}, static_cast<std::uint32_t>(names_.size()));
-    if (!fresh) return entry->second;
-    if (taken_.empty()) store();
-    std::string name = names_[action] + "'" + std::to_string(times);
-    while (!taken_.insert(name).second) name.insert(name.rfind('\''), "'");
-    names_.push_back(name);
-    return entry->second;
+bool all_proper(const Names& names) {
+  for (std::uint64_t i = 0; i < names.size(); ++i) {
+    if (!name_fault(names[i]).empty()) return false;
   }
+  return true;
+}
 
- private:
-  void store() {
-    Names stored;
-    for (std::uint64_t i = 0; i < names_.size(); ++i) {
-      stored.push_back(names_[i]);
-      taken_.insert(names_[i]);
+bool all_distinct(const MdpArrays& a, std::uint64_t actions) {
+  std::vector<std::uint64_t> last_state(actions, 0);  // from 1
+  for (std::uint64_t s = 0; s + 1 < a.choice_begin.size(); ++s) {
+    for (std::uint64_t c = a.choice_begin[s]; c < a.choice_begin[s + 1]; ++c) {
+      if (std::exchange(last_state[a.action[c]], s + 1) == s + 1) return false;
     }
-    names_ = std::move(stored);
   }
-
-  Names& names_;
-  std::set<std::string> taken_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> made_;
-};
+  return true;
+}
 
 }  // namespace
 
-void make_actions_distinct(MdpArrays& arrays) {
-  const std::uint64_t named = arrays.action_names.size();
-  Renamer renamer(arrays.action_names);
-  // Per action: the last state that used it and how often there.
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> last(named, {UINT64_MAX, 0});
-  std::uint64_t renamed = 0;
+void name_actions(MdpArrays& arrays, Names given) {
+  if (all_proper(given) && all_distinct(arrays, given.size())) {
+    arrays.action_names = std::move(given);
+    return;
+  }
+  NameIndex names;
+  std::vector<std::uint64_t> last_state;  // per name: the last state that has it, from 1
+  const auto find = [&](const std::string& name) {
+    const std::uint32_t number = names.insert(name);
+    if (number >= last_state.size()) last_state.resize(std::size_t{number} + 1, 0);
+    return number;
+  };
+  for (std::uint64_t i = 0; i < given.size(); ++i) {
+    if (name_fault(given[i]).empty()) find(given[i]);
+  }
+  std::string renamed;
   for (std::uint64_t s = 0; s + 1 < arrays.choice_begin.size(); ++s) {
     for (std::uint64_t c = arrays.choice_begin[s]; c < arrays.choice_begin[s + 1]; ++c) {
-      auto& [state, times] = last[arrays.action[c]];
-      times = state == s ? times + 1 : 1;
-      state = s;
-      if (times == 1) continue;
-      arrays.action[c] = renamer.renamed(arrays.action[c], times);
-      ++renamed;
+      const std::string number = std::to_string(c - arrays.choice_begin[s]);
+      std::string name = given[arrays.action[c]];
+      if (!name_fault(name).empty()) name = number;
+      std::uint32_t action = find(name);
+      if (last_state[action] == s + 1) {
+        std::string longer = name + "." + number;
+        if (renamed.empty()) {
+          renamed = "state " + std::to_string(s) + " has two choices called " + name +
+                    ": the second is " + longer + ", and so wherever names are not different";
+        }
+        while (last_state[action = find(longer)] == s + 1) longer += "." + number;
+      }
+      last_state[action] = s + 1;
+      arrays.action[c] = action;
     }
   }
-  if (renamed == 0) return;
-  arrays.remarks.push_back(counted(renamed, "choice") +
-                           " with an action its state already has: numbered, as in " +
-                           arrays.action_names[named]);
+  arrays.action_names = names.take({});
+  if (!renamed.empty()) arrays.remarks.push_back(std::move(renamed));
 }
 
 }  // namespace quoll

@@ -5,8 +5,10 @@
 
 namespace quoll {
 
-/// Gives a state's second choice by the action "a" the new name "a'2", its third "a'3", ... (more
-/// strokes if that is taken), and says so in a remark. Needs arrays that fit together. Linear.
-void make_actions_distinct(MdpArrays& arrays);
+/// Makes `given`, which `arrays.action` leads into, the names of the actions. As NumberedModel
+/// does, a choice without a proper name is called by its number in its state, and a name that
+/// another choice of the state has gets that number behind it ("go.1"); the first such is a remark.
+/// Linear.
+void name_actions(MdpArrays& arrays, Names given);
 
 }  // namespace quoll

@@ -9,6 +9,7 @@
 // to an end of its own.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -252,12 +253,12 @@ bool GymnasiumReader::read_successor(std::uint32_t& number) {
   if (json_.peek() == JsonReader::Kind::text) {
     if (!json_.take(name)) return false;
   } else {
-    std::string_view letters;
-    if (!json_.take_number(letters)) return false;
-    if (!parse_count(letters) || letters.find_first_of(".eE") != std::string_view::npos) {
+    double value = 0.0;  // 36.0 is what some exports make of 36
+    if (!json_.take(value)) return false;
+    if (!(value >= 0.0 && value < 9e15) || value != std::floor(value)) {
       return json_.fail("a state's name or number expected");
     }
-    name = letters;
+    name = std::to_string(static_cast<std::uint64_t>(value));
   }
   if (!proper(name)) return false;
   number = number_of(name);

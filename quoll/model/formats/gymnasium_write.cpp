@@ -6,6 +6,7 @@
 #include "quoll/base/json.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/model/formats/format.hpp"
+#include "quoll/model/formats/numbered.hpp"
 
 namespace quoll {
 namespace {
@@ -46,15 +47,6 @@ void write_frame(std::string& out, const Mdp& mdp) {
   out += ",\n\"P\":";
 }
 
-// States that are called by their numbers are written as numbers, as Gymnasium
-// does.
-bool numbered(const Mdp& mdp) {
-  for (std::uint64_t s = 0; s < mdp.states(); ++s) {
-    if (mdp.state_name(static_cast<State>(s)) != std::to_string(s)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 Result<std::string> write_gymnasium(const Mdp& mdp) {
@@ -62,7 +54,8 @@ Result<std::string> write_gymnasium(const Mdp& mdp) {
   if (!proper) return proper.error();
   std::string out;
   write_frame(out, mdp);
-  const bool plain = numbered(mdp);
+  // Numbers as Gymnasium has them, if that is what the states are called.
+  const bool plain = states_are_numbered(mdp);
   for (std::uint64_t i = 0; i < mdp.states(); ++i) {
     const auto s = static_cast<State>(i);
     out += (i == 0 ? "{\n" : ",\n") + json_string(mdp.state_name(s)) + ":{";

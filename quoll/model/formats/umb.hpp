@@ -33,8 +33,8 @@ struct Type {
 /// Errors say what is wrong with it.
 Result<Type> type_of(const Tree* tree);
 
-/// The names of the states that their valuations give: "x=2,b=true", or the text alone where a text
-/// is all there is. Errors say why they cannot serve as names.
+/// The names of the states that their valuations give: "(x=2,b=true)", or the text alone where a
+/// text is all there is. Errors say why they cannot serve as names.
 Result<Names> state_names(const Tree& description, const Files& files, std::uint64_t states);
 
 /// The strings of a folder as names of `count` things. Errors say what does not fit.

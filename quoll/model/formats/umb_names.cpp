@@ -129,7 +129,7 @@ std::optional<std::string> text_of(const Variable& variable, std::uint64_t bits,
   return std::nullopt;
 }
 
-/// "x=2,b=true"; a text that is all there is stands alone. Nothing when a value cannot be shown.
+/// "(x=2,b=true)"; a text that is all there is stands alone. Nothing when a value cannot be shown.
 std::optional<std::string> name_of(const Class& valuation, std::string_view bytes,
                                    const Names& strings) {
   Bits bits(bytes);
@@ -146,9 +146,9 @@ std::optional<std::string> name_of(const Class& valuation, std::string_view byte
     const auto text = there ? text_of(variable, value, strings) : "none";
     if (!text) return std::nullopt;
     if (alone) return text;
-    name += (name.empty() ? "" : ",") + variable.name + "=" + *text;
+    name += (name.empty() ? "(" : ",") + variable.name + "=" + *text;
   }
-  return name;
+  return name.empty() ? name : name + ")";
 }
 
 }  // namespace

@@ -26,7 +26,6 @@
 #include "quoll/model/formats/format.hpp"
 #include "quoll/model/formats/tar.hpp"
 #include "quoll/model/formats/umb.hpp"
-#include "quoll/model/letters.hpp"
 
 namespace quoll {
 namespace {
@@ -68,7 +67,6 @@ class UmbReader {
   bool probabilities();
   bool starts();
   bool actions();
-  bool action_names(std::uint64_t named);
   bool rewards();
   bool reward_structure(const std::string& id, const Tree& annotation, RewardStructure& into);
   bool labels();
@@ -223,31 +221,13 @@ bool UmbReader::actions() {
     return fail(name + ": action " + std::to_string(largest) + " of " +
                 std::to_string(choice_actions_));
   }
-  if (!action_names(std::uint64_t{largest} + 1)) return false;
-  make_actions_distinct(a_);
-  return true;
-}
-
-// Actions without a proper name are called by their number. Of unnamed ones only those in use
-// count.
-bool UmbReader::action_names(std::uint64_t used) {
-  if (!umb::find(files_, "actions/choices/string-mapping.bin")) {
-    a_.action_names = Names::numbered("", used);
-    return true;
-  }
-  if (!taken(umb::strings(files_, "actions/choices/", choice_actions_), a_.action_names))
+  // Of unnamed actions only those in use count.
+  Names given = Names::numbered("", std::uint64_t{largest} + 1);
+  if (umb::find(files_, "actions/choices/string-mapping.bin") &&
+      !taken(umb::strings(files_, "actions/choices/", choice_actions_), given)) {
     return false;
-  bool proper = true;
-  for (std::uint64_t i = 0; proper && i < choice_actions_; ++i) {
-    proper = name_fault(a_.action_names[i]).empty();
   }
-  if (proper) return true;
-  Names mended;
-  for (std::uint64_t i = 0; i < choice_actions_; ++i) {
-    const std::string name = a_.action_names[i];
-    mended.push_back(name_fault(name).empty() ? name : "action " + std::to_string(i));
-  }
-  a_.action_names = std::move(mended);
+  name_actions(a_, std::move(given));
   return true;
 }
 

@@ -23,7 +23,7 @@ constexpr std::string_view small = R"({
 "0": {"0": [[1.0, 0, -1, false]],
       "1": [[0.3333333333333333, 1, 1.0, true], [0.3333333333333333, 1, 1.0, true],
             [0.3333333333333333, 0, 0.0, false]]},
-"1": {"0": [[1.0, 1, 0, true]], "1": [[1.0, 1, 0, 1]]}})";
+"1": {"0": [[1.0, 1, 0, true]], "1": [[1.0, 1.0, 0, 1.0]]}})";
 
 TEST(Gymnasium, OutcomesAreKeptAndHolesAreEnds) {
   const Mdp mdp = model(small);

@@ -148,16 +148,16 @@ TEST(Umb, ValuationsNameTheStates) {
             R"({"name":"y","is-optional":true,"type":{"type":"int","size":2}},{"padding":2}]}]}})");
   parts["valuations/states/valuations.bin"] = {'\x00', '\x07', '\x3a'};
   const Mdp mdp = model(parts);
-  EXPECT_EQ(mdp.state_name(0), "x=-1,b=false,y=none");
-  EXPECT_EQ(mdp.state_name(1), "x=2,b=true,y=none");
-  EXPECT_EQ(mdp.state_name(2), "x=1,b=false,y=-1");
+  EXPECT_EQ(mdp.state_name(0), "(x=-1,b=false,y=none)");
+  EXPECT_EQ(mdp.state_name(1), "(x=2,b=true,y=none)");
+  EXPECT_EQ(mdp.state_name(2), "(x=1,b=false,y=-1)");
   // Two equal names: numbers instead, and a remark.
   parts["valuations/states/valuations.bin"] = {'\x00', '\x07', '\x07'};
   const auto arrays = parse_model_arrays(archive(parts), "m.umb");
   ASSERT_TRUE(arrays);
   EXPECT_EQ(arrays->state_names[2], "2");
-  EXPECT_EQ(arrays->remarks,
-            std::vector<std::string>{"states are numbered: state x=2,b=true,y=none stands twice"});
+  EXPECT_EQ(arrays->remarks, std::vector<std::string>{
+                                 "states are numbered: state (x=2,b=true,y=none) stands twice"});
 }
 
 TEST(Umb, ChoicesWithOneActionAreToldApart) {
@@ -165,7 +165,7 @@ TEST(Umb, ChoicesWithOneActionAreToldApart) {
   const auto arrays = parse_model_arrays(archive(parts), "m.umb");
   ASSERT_TRUE(arrays);
   EXPECT_EQ(arrays->action_names[arrays->action[0]], "down");
-  EXPECT_EQ(arrays->action_names[arrays->action[1]], "down'2");
+  EXPECT_EQ(arrays->action_names[arrays->action[1]], "down.1");
   EXPECT_EQ(arrays->action_names[arrays->action[2]], "down");
   ASSERT_EQ(arrays->remarks.size(), 1u);
   EXPECT_TRUE(Mdp::make(*arrays));
