@@ -22,6 +22,7 @@ using cassandra::Rules;
 using cassandra::Word;
 using cassandra::WordStream;
 
+constexpr std::size_t longest_shown = 60;  // of a word, in messages
 constexpr std::array<std::string_view, 9> keywords = {
     "discount", "values", "states", "actions", "observations", "start", "T", "O", "R"};
 
@@ -75,8 +76,14 @@ class CassandraReader {
     return false;
   }
   static std::string found(const Word& word) {
-    return word.text.empty() ? ", found the end of the file"
-                             : ", found '" + std::string(word.text.substr(0, 60)) + "'";
+    if (word.text.empty()) return ", found the end of the file";
+    const std::string_view shown = word.text.substr(0, longest_shown);
+    return name_fault(shown).empty() ? ", found '" + std::string(shown) + "'" : "";
+  }
+  // The known name nearest to a word that is not a whole file by mistake.
+  template <class Names>
+  static std::string near(const Word& word, const Names& names) {
+    return word.text.size() <= longest_shown ? nearest(word.text, names) : "";
   }
 
   bool read_part();
@@ -131,7 +138,7 @@ bool CassandraReader::read_part() {
     return fail(
         word,
         "expected discount, values, states, actions, observations, start, T, O or R" + found(word),
-        nearest(key, keywords));
+        near(word, keywords));
   }
   if (!take_colon()) return false;
   if (key == "values") return read_values();
@@ -215,10 +222,10 @@ bool CassandraReader::read_index(const Listed& names, const char* what, bool wil
     index = static_cast<std::uint32_t>(*number);
     return true;
   }
-  Nearest near(word.text);
+  Nearest search(word.text.substr(0, longest_shown));
   for (std::uint32_t i = 0; names.named && i < names.count && i < 100'000; ++i)
-    near.offer(names.index[i]);
-  return fail(word, std::string("expected ") + what + found(word), near.best());
+    search.offer(names.index[i]);
+  return fail(word, std::string("expected ") + what + found(word), search.best());
 }
 
 // "start: uniform", "start: STATE", "start: 0.5 0.5 ...", "start include: ...", "start exclude:
@@ -356,7 +363,7 @@ bool CassandraReader::read_rule_values(char letter, Rule& rule, int levels) {
     return fail(word,
                 "expected numbers" + std::string(letter == 'R' ? "" : ", uniform or identity") +
                     found(word),
-                letter == 'R' ? "" : nearest(word.text, words));
+                letter == 'R' ? "" : near(word, words));
   }
   rule.kind = matrix ? Rule::Kind::matrix : Rule::Kind::row;
   rule.values = content_.numbers.size();
