@@ -42,17 +42,24 @@ class TiedActions {
  public:
   TiedActions(const Mdp& mdp, const Solution& solution);
   /// As optimal_actions(). Cost: that state's outcomes; at discount 1 where circles may earn
-  /// nothing, once the whole model and a search per tied action that circles.
+  /// nothing, once the whole model and a search, mostly short, per tied action that circles.
   std::vector<Action> of(State state) const;
 
  private:
   std::vector<Action> tied(State state) const;
+  void find_circles() const;
   bool leaves(State from, std::uint64_t choice) const;
 
   const Mdp& mdp_;
   const Solution& solution_;
   bool may_circle_ = false;
-  mutable EndComponents circles_;  // of tied choices; found when first needed
+  // Found when first needed: the tied choices, their circles, the fewest moves in circles to a
+  // state where a tied choice leaves its circle, and the last search that saw a state.
+  mutable std::vector<bool> tied_choice_;
+  mutable EndComponents circles_;
+  mutable std::vector<std::uint32_t> way_out_;
+  mutable std::vector<std::uint64_t> seen_in_;
+  mutable std::uint64_t search_ = 0;
 };
 
 /// All actions whose Q* is within max(1e-9 |V*|, width of the interval) of the best, ascending;

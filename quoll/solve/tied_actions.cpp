@@ -28,13 +28,7 @@ TiedActions::TiedActions(const Mdp& mdp, const Solution& solution)
 std::vector<Action> TiedActions::of(State state) const {
   std::vector<Action> actions = tied(state);
   if (!may_circle_ || actions.size() < 2) return actions;
-  if (circles_.component.empty()) {
-    std::vector<bool> allowed(mdp_.choices(), false);
-    for (State s = 0; s < mdp_.states(); ++s) {
-      for (const Action a : tied(s)) allowed[mdp_.choice_begin(s) + a] = true;
-    }
-    circles_ = maximal_end_components(mdp_, allowed);
-  }
+  if (circles_.component.empty()) find_circles();
   std::vector<Action> ending;
   for (const Action a : actions) {
     const std::uint64_t c = mdp_.choice_begin(state) + a;
@@ -66,26 +60,81 @@ std::vector<Action> TiedActions::tied(State state) const {
   return actions;
 }
 
-// Whether a circle is left by tied choices elsewhere than at `from`, where `choice` is always
-// taken: a search from its outcomes that does not pass `from` again.
-bool TiedActions::leaves(State from, std::uint64_t choice) const {
+void TiedActions::find_circles() const {
+  const State states = static_cast<State>(mdp_.states());
+  tied_choice_.assign(mdp_.choices(), false);
+  for (State s = 0; s < states; ++s) {
+    for (const Action a : tied(s)) tied_choice_[mdp_.choice_begin(s) + a] = true;
+  }
+  circles_ = maximal_end_components(mdp_, tied_choice_);
+
+  std::vector<std::uint64_t> begin(std::size_t{states} + 1);  // of the states before each
   std::vector<State> found;
-  std::vector<bool> seen(mdp_.states(), false);
-  seen[from] = true;
-  const auto visit = [&](std::uint64_t c) {
-    for (std::uint64_t o = mdp_.outcome_begin(c); o < mdp_.outcome_end(c); ++o) {
-      if (seen[mdp_.next(o)]) continue;
-      seen[mdp_.next(o)] = true;
-      found.push_back(mdp_.next(o));
+  const auto each_move = [&](auto&& visit) {
+    for (State s = 0; s < states; ++s) {
+      for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
+        if (!circles_.inside[c]) continue;
+        for (std::uint64_t o = mdp_.outcome_begin(c); o < mdp_.outcome_end(c); ++o) {
+          visit(s, mdp_.next(o));
+        }
+      }
     }
   };
-  visit(choice);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    for (const Action a : tied(found[i])) {
-      const std::uint64_t c = mdp_.choice_begin(found[i]) + a;
-      if (!circles_.inside[c]) return true;
-      visit(c);
+  each_move([&](State, State next) { ++begin[next]; });
+  std::uint64_t sum = 0;
+  for (std::uint64_t& count : begin) count = sum += count;
+  std::vector<State> before(sum);
+  each_move([&](State s, State next) { before[--begin[next]] = s; });
+
+  way_out_.assign(states, unreached);
+  for (State s = 0; s < states; ++s) {
+    for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
+      if (tied_choice_[c] && !circles_.inside[c]) way_out_[s] = 0;
     }
+    if (way_out_[s] == 0) found.push_back(s);
+  }
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (std::uint64_t j = begin[found[i]]; j < begin[std::size_t{found[i]} + 1]; ++j) {
+      if (way_out_[before[j]] != unreached) continue;
+      way_out_[before[j]] = way_out_[found[i]] + 1;
+      found.push_back(before[j]);
+    }
+  }
+  seen_in_.assign(states, 0);
+}
+
+// Whether a circle is left by tied choices elsewhere than at `from`, where `choice` is always
+// taken: a search from its outcomes, the nearest to the way out first, that does not pass `from`
+// again. From a state that is no farther from the way out than `from` is, the shortest way out does
+// not pass `from`.
+bool TiedActions::leaves(State from, std::uint64_t choice) const {
+  std::vector<State> found;
+  ++search_;
+  seen_in_[from] = search_;
+  const auto visit = [&](std::uint64_t c) {
+    for (std::uint64_t o = mdp_.outcome_begin(c); o < mdp_.outcome_end(c); ++o) {
+      const State next = mdp_.next(o);
+      if (seen_in_[next] == search_) continue;
+      seen_in_[next] = search_;
+      if (way_out_[next] != unreached && way_out_[next] <= way_out_[from]) return true;
+      found.push_back(next);
+    }
+    return false;
+  };
+  const auto nearest_last = [&](std::size_t first) {
+    std::sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(),
+              [&](State a, State b) { return way_out_[a] > way_out_[b]; });
+  };
+  if (visit(choice)) return true;
+  nearest_last(0);
+  while (!found.empty()) {
+    const State at = found.back();
+    found.pop_back();
+    const std::size_t first = found.size();
+    for (std::uint64_t c = mdp_.choice_begin(at); c < mdp_.choice_end(at); ++c) {
+      if (tied_choice_[c] && visit(c)) return true;
+    }
+    nearest_last(first);
   }
   return false;
 }

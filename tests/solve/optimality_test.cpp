@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "models.hpp"
+#include "quoll/base/random.hpp"
 #include "quoll/model/grid.hpp"
 #include "quoll/model/maze.hpp"
 #include "quoll/solve/solver.hpp"
@@ -207,6 +210,47 @@ TEST(Optimality, CirclesForNothingAreNotOptimalMoves) {
   EXPECT_EQ(best("B"), (std::vector<Action>{0, 1}));
   EXPECT_EQ(best("C"), (std::vector<Action>{0}));
   EXPECT_EQ(best("D"), (std::vector<Action>{1}));
+}
+
+// Whether the end can be reached from `at` without passing `avoided`.
+bool gets_out(const std::vector<std::vector<std::uint32_t>>& moves, std::uint32_t at,
+              std::uint32_t avoided, std::vector<bool>& seen) {
+  if (at == moves.size()) return true;
+  if (at == avoided || seen[at]) return false;
+  seen[at] = true;
+  return std::any_of(moves[at].begin(), moves[at].end(),
+                     [&](std::uint32_t next) { return gets_out(moves, next, avoided, seen); });
+}
+
+TEST(Optimality, AMoveIsOptimalWhenTheEndCanBeReachedWithoutComingBack) {
+  // All states are worth 5: every move ties, and those that have to come back only circle.
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    constexpr std::uint32_t states = 14;
+    Rng dice = stream(seed, "test");
+    std::vector<std::vector<std::uint32_t>> moves(states);
+    MdpBuilder b(1.0);
+    for (std::uint32_t s = 0; s < states; ++s) b.state("s" + std::to_string(s));
+    for (std::uint32_t s = 0; s < states; ++s) {
+      moves[s] = {dice.below(states), dice.below(std::min(states, s + 3)), s == 0 ? states : s - 1};
+      for (std::uint32_t a = 0; a < moves[s].size(); ++a) {
+        const std::uint32_t next = moves[s][a];
+        b.move("s" + std::to_string(s), "a" + std::to_string(a),
+               next == states ? "END" : "s" + std::to_string(next), next == states ? 5.0 : 0.0);
+      }
+    }
+    const Mdp mdp = test::built(b);
+    const auto exact = solve(mdp);
+    ASSERT_TRUE(exact);
+    const TiedActions tied(mdp, *exact);
+    for (std::uint32_t s = 0; s < states; ++s) {
+      std::vector<Action> expected;
+      for (Action a = 0; a < moves[s].size(); ++a) {
+        std::vector<bool> seen(states, false);
+        if (gets_out(moves, moves[s][a], s, seen)) expected.push_back(a);
+      }
+      EXPECT_EQ(tied.of(s), expected) << "seed " << seed << " state " << s;
+    }
+  }
 }
 
 }  // namespace
