@@ -1,5 +1,7 @@
 #include "quoll/base/parameters.hpp"
 
+#include <algorithm>
+
 #include "quoll/base/text.hpp"
 
 namespace quoll {
@@ -24,6 +26,14 @@ Result<void> assign_parameters(std::string_view world, std::vector<Setting> sett
     if (Result<void> done = assign(*setting, text, "--with " + key); !done) return done.error();
   }
   return {};
+}
+
+bool gives(const Parameters& given, std::string_view name) {
+  const auto letter = [](char c) { return c == '-' ? '_' : c; };
+  return std::any_of(given.begin(), given.end(), [&](const auto& one) {
+    return std::equal(one.first.begin(), one.first.end(), name.begin(), name.end(),
+                      [&](char a, char b) { return letter(a) == letter(b); });
+  });
 }
 
 std::vector<ParameterText> parameter_texts(std::vector<Setting> settings) {

@@ -22,12 +22,26 @@ Result<void> assign_parameters(std::string_view world, std::vector<Setting> sett
                                const Parameters& given);
 std::vector<ParameterText> parameter_texts(std::vector<Setting> settings);
 
-/// The settings of a world with what was given.
+/// Whether a parameter of this name ('-' and '_' are the same) is among those given.
+bool gives(const Parameters& given, std::string_view name);
+
+/// The settings of a world with what was given. A struct whose parameters depend on each other has
+///   std::string_view needs(std::string_view name) const;
+/// what the parameter still needs for an effect, such as "rainy=true", empty = nothing: one that is
+/// given without what it needs is an error.
 template <class Settings>
 Result<Settings> read_parameters(std::string_view world, const Parameters& given) {
   Settings settings;
-  if (Result<void> done = assign_parameters(world, settings_of(settings), given); !done) {
-    return done.error();
+  const std::vector<Setting> list = settings_of(settings);
+  if (Result<void> done = assign_parameters(world, list, given); !done) return done.error();
+  if constexpr (requires { settings.needs(std::string_view()); }) {
+    for (const Setting& one : list) {
+      const std::string_view needed = settings.needs(one.name);
+      if (!needed.empty() && gives(given, one.name)) {
+        return Error{"--with " + std::string(one.name), 0, 0,
+                     "has an effect only with " + std::string(needed), ""};
+      }
+    }
   }
   return settings;
 }

@@ -59,6 +59,15 @@ Found find_entry(std::string_view name) {
   return {};
 }
 
+// Each name once, with the text given last.
+Parameters merged(Parameters first, const Parameters& second) {
+  for (const auto& [name, text] : second) {
+    std::erase_if(first, [&](const auto& one) { return gives({one}, name); });
+    first.emplace_back(name, text);
+  }
+  return first;
+}
+
 // "mazes/big.txt" -> "big": what a world from a file is called when the file does not say.
 std::string stem(const std::string& path) {
   const std::size_t slash = path.find_last_of('/');
@@ -76,11 +85,28 @@ const WorldEntry* find_world_entry(std::string_view name) {
   return find_entry(name).entry;
 }
 
+Offer offer_of(const WorldEntry& entry) {
+  if (entry.offer) return entry.offer();
+  const Result<World> world = entry.make({});
+  if (!world) return {};
+  Offer offer{{}, world->episode_steps, world->discount, world->traits.libm};
+  if (!world->mdp) {
+    offer.spaces = world->make({})->spaces();
+    return offer;
+  }
+  const Mdp& mdp = *world->mdp;
+  offer.spaces.states = static_cast<std::uint32_t>(mdp.states());
+  for (State s = 0; s < mdp.states(); ++s) {
+    offer.spaces.actions = std::max(offer.spaces.actions, mdp.actions(s));
+  }
+  return offer;
+}
+
 Result<World> find_world(const std::string& name_or_file, const Parameters& parameters) {
   if (Found found = find_entry(name_or_file); found.entry) {
-    found.parameters.insert(found.parameters.end(), parameters.begin(), parameters.end());
-    Result<World> world = found.entry->make(found.parameters);
-    if (world) world->parameters = parameters;
+    const Parameters all = merged(std::move(found.parameters), parameters);
+    Result<World> world = found.entry->make(all);
+    if (world) world->parameters = all;
     return world;
   }
   if (!names_a_file(name_or_file)) {
@@ -99,7 +125,7 @@ Result<World> find_world(const std::string& name_or_file, const Parameters& para
   Result<Mdp> mdp = read_model(name_or_file, parameters);
   if (!mdp) return mdp.error();
   World world = to_world(stem(name_or_file), std::move(*mdp));
-  world.parameters = parameters;
+  world.parameters = merged({}, parameters);
   return world;
 }
 

@@ -30,7 +30,7 @@ struct Traits {
 
 struct World {
   std::string name;
-  Parameters parameters;  ///< as given by --with
+  Parameters parameters;  ///< those of the alias and those given by --with, each name once
   Traits traits;
   double discount = 1.0;
   std::uint64_t episode_steps = 0;        ///< the world's own step limit; 0 = none
@@ -57,6 +57,14 @@ World to_world(std::string name, Mdp mdp, Looks looks = {}, std::uint64_t episod
 /// A built-in name or alias, or a file of a known format, with `--with key=value` parameters.
 Result<World> find_world(const std::string& name_or_file, const Parameters& parameters = {});
 
+/// What a world offers with its standard parameters.
+struct Offer {
+  Spaces spaces;
+  std::uint64_t episode_steps = 0;  ///< the world's own step limit; 0 = none
+  double discount = 1.0;
+  bool libm = false;
+};
+
 /// One line of `list worlds`. An alias may set parameters: "FrozenLake8x8-v1:map=8x8".
 struct WorldEntry {
   std::string_view name;
@@ -65,8 +73,13 @@ struct WorldEntry {
   std::string_view source;  ///< who describes the world: paper or program
   Result<World> (*make)(const Parameters& parameters);
   std::vector<ParameterText> (*parameters)();
+  /// Of worlds that take long to make: what they would offer; nullptr = make one and see.
+  Offer (*offer)() = nullptr;
 };
 std::span<const WorldEntry* const> worlds();
+
+/// What a built-in world offers.
+Offer offer_of(const WorldEntry& entry);
 
 /// The built-in world that this is the name or an alias of, or nullptr.
 const WorldEntry* find_world_entry(std::string_view name);

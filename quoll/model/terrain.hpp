@@ -41,6 +41,9 @@ struct RobotSettings {
     d("heading", heading, "the robot faces one of 8 directions, and goes forward or turns");
     d("turn_cost", turn_cost, 0, 1e6, "with heading: cost of a turn by 45 degrees, in cells");
   }
+  std::string_view needs(std::string_view name) const {
+    return name == "turn_cost" && !heading ? "heading=true" : "";
+  }
 };
 
 /// Discount 1, reward = -length of the move: the side of a cell, or sqrt(2) sides on a diagonal;

@@ -154,6 +154,14 @@ void BicycleSettings::describe(Describer& describe) {
            "the reward's factor per step");
 }
 
+std::string_view BicycleSettings::needs(std::string_view name) const {
+  const bool to_goal = task == BicycleTask::goal;
+  if (name == "shaping" && shaping == Shaping::standard && !to_goal) return "task=goal";
+  if (name == "shaping_weight" && shaping != Shaping::potential) return "shaping=potential";
+  if ((name == "heading" || name == "any_heading") && !to_goal) return "task=goal";
+  return name == "heading" && any_heading ? "any_heading=false" : "";
+}
+
 void Track::add(double at_x, double at_y) {
   if (wait > 0) {
     --wait;

@@ -44,6 +44,7 @@ struct BicycleSettings {
   double discount = 0.99;
 
   void describe(Describer& describe);
+  std::string_view needs(std::string_view name) const;
 };
 
 /// Where a ride went, for pictures: at most 512 points, evenly spaced in time.

@@ -27,6 +27,9 @@ struct Settings {
     d.choice("map", map, map_names, "which of the book's mazes");
     d.choice("stage", stage, stage_names, "blocking and shortcut: before or after the change");
   }
+  std::string_view needs(std::string_view name) const {
+    return name == "stage" && map == Map::dyna ? "map=blocking or map=shortcut" : "";
+  }
 };
 
 std::vector<std::string> picture_of(const Settings& settings) {
@@ -43,9 +46,6 @@ std::vector<std::string> picture_of(const Settings& settings) {
 Result<World> make(const Parameters& given) {
   const Result<Settings> settings = read_parameters<Settings>("dyna-maze", given);
   if (!settings) return settings.error();
-  if (settings->map == Map::dyna && settings->stage == Stage::after) {
-    return Error{"--with stage", 0, 0, "stage=after belongs to map=blocking and map=shortcut", ""};
-  }
   Grid grid;
   grid.rows = picture_of(*settings);
   grid.move_reward = 0.0;

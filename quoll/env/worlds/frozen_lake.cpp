@@ -44,24 +44,12 @@ struct LakeSettings {
     describe("seed", seed, "seed of a generated map");
     describe.choice("seeding", seeding, seeding_names, "whose random numbers a seed gives");
   }
+  std::string_view needs(std::string_view name) const {
+    if (name == "success_rate" && !slippery) return "slippery=true";
+    const bool of_generated = name == "size" || name == "p" || name == "seed";
+    return of_generated && map != "generated" ? "map=generated" : "";
+  }
 };
-
-// Parameters that would have no effect are mistakes.
-Result<void> without_effect(const LakeSettings& settings) {
-  const LakeSettings standard;
-  if (!settings.slippery && settings.success_rate != standard.success_rate) {
-    return Error{"--with success_rate", 0, 0, "has an effect only with slippery=true", ""};
-  }
-  const std::string_view changed = settings.size != standard.size   ? "size"
-                                   : settings.p != standard.p       ? "p"
-                                   : settings.seed != standard.seed ? "seed"
-                                                                    : "";
-  if (settings.map != "generated" && !changed.empty()) {
-    return Error{"--with " + std::string(changed), 0, 0, "has an effect only with map=generated",
-                 ""};
-  }
-  return {};
-}
 
 Result<LakeMap> map_of(const LakeSettings& settings) {
   if (settings.map == "4x4") return LakeMap{"SFFF", "FHFH", "FFFH", "HFFG"};
@@ -141,7 +129,6 @@ class Lake {
 Result<World> make(const Parameters& parameters) {
   const Result<LakeSettings> settings = read_parameters<LakeSettings>("frozen-lake", parameters);
   if (!settings) return settings.error();
-  if (Result<void> sound = without_effect(*settings); !sound) return sound.error();
   Result<LakeMap> map = map_of(*settings);
   if (!map) return map.error();
   Result<Mdp> mdp = Lake(*settings, *map).model();

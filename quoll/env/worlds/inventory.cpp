@@ -39,6 +39,9 @@ struct Settings {
     d("unit_cost", unit_cost, 0, 1e9, "cost of a unit ordered");
     d("holding_cost", holding_cost, 0, 1e9, "cost of a unit in stock after ordering");
   }
+  std::string_view needs(std::string_view name) const {
+    return name == "mean" && demand != Demand::poisson ? "demand=poisson" : "";
+  }
 };
 
 // Probabilities of demands 0, 1, ..., available - 1 and of all larger ones together.

@@ -265,6 +265,7 @@ const WorldEntry krk_world{"krk",
                            "chess: mate with king and rook against the bare king",
                            "the rules of chess; solved by retrograde analysis (Thompson 1986)",
                            make,
-                           parameters_of<KrkSettings>};
+                           parameters_of<KrkSettings>,
+                           [] { return Offer{{22, 175'171}, 50, 0.99}; }};
 
 }  // namespace quoll

@@ -42,10 +42,14 @@ struct Settings {
   double sticky = 0.1;
   bool ramping = true;
   bool minimal = false;
+};
 
+/// The settings of a game; only one that ramps can be told not to.
+template <class Game>
+struct SettingsOf : Settings {
   void describe(Describer& describe) {
     describe("sticky", sticky, 0.0, 1.0, "probability that the previous action is repeated");
-    describe("ramping", ramping, "the game grows harder (Breakout and Freeway never do)");
+    if constexpr (Game::ramps) describe("ramping", ramping, "the game grows harder");
     describe("minimal", minimal, "offer only the actions that this game has a use for");
   }
 };
@@ -188,7 +192,7 @@ Drawing drawing(std::span<const Channel> channels, std::span<const float> flags)
 
 /// A game becomes a world. A Game has
 ///   Position : Common                                     with persist()
-///   channels, minimal, reward_bounds                      constants
+///   channels, minimal, reward_bounds, ramps               constants
 ///   Position start(auto& dice)
 ///   double act(Position&, Move, bool ramping, auto& dice)  the reward; sets `over`
 ///   void show(const Position&, Flags<n>)
@@ -241,7 +245,7 @@ struct Play {
 
 template <class Game>
 Result<World> make(std::string_view name, const Parameters& given) {
-  Result<Settings> settings = read_parameters<Settings>(name, given);
+  const Result<SettingsOf<Game>> settings = read_parameters<SettingsOf<Game>>(name, given);
   if (!settings) return settings.error();
   WorldFacts facts;
   facts.discount = 0.99;

@@ -37,6 +37,7 @@ struct Asterix {
                                          {"gold", 'G', Ink::reward}};
   static constexpr Move minimal[] = {stay, left, up, right, down};
   static constexpr std::pair<double, double> reward_bounds{0.0, 1.0};
+  static constexpr bool ramps = true;
 
   enum class Kind : std::uint8_t { none, enemy, gold };
   static constexpr std::string_view kind_names[] = {"none", "enemy", "gold"};
@@ -162,6 +163,6 @@ const WorldEntry minatar_asterix_world{
     "MinAtar: collect gold and avoid enemies that cross the screen",
     "Young and Tian 2019, arXiv 1903.03176; MinAtar 1.0.15",
     [](const Parameters& given) { return minatar::make<Asterix>("minatar-asterix", given); },
-    parameters_of<minatar::Settings>};
+    parameters_of<minatar::SettingsOf<Asterix>>};
 
 }  // namespace quoll

@@ -37,6 +37,7 @@ struct Breakout {
                                          {"brick", '#', Ink::wall}};
   static constexpr Move minimal[] = {stay, left, right};
   static constexpr std::pair<double, double> reward_bounds{0.0, 1.0};
+  static constexpr bool ramps = false;
 
   // Sideways turn: code ^ 1; upside down: code ^ 3; both: code ^ 2.
   static constexpr std::string_view direction_names[] = {"up-left", "up-right", "down-right",
@@ -137,6 +138,6 @@ const WorldEntry minatar_breakout_world{
     "MinAtar: keep the ball in play and break the bricks",
     "Young and Tian 2019, arXiv 1903.03176; MinAtar 1.0.15",
     [](const Parameters& given) { return minatar::make<Breakout>("minatar-breakout", given); },
-    parameters_of<minatar::Settings>};
+    parameters_of<minatar::SettingsOf<Breakout>>};
 
 }  // namespace quoll

@@ -35,6 +35,7 @@ struct Freeway {
                                          {"speed5", '5', Ink::faint}};
   static constexpr Move minimal[] = {stay, up, down};
   static constexpr std::pair<double, double> reward_bounds{0.0, 1.0};
+  static constexpr bool ramps = false;
 
   struct Position : Common {
     std::int8_t y = 9;
@@ -134,6 +135,6 @@ const WorldEntry minatar_freeway_world{
     "MinAtar: a chicken crosses eight lanes of cars",
     "Young and Tian 2019, arXiv 1903.03176; MinAtar 1.0.15",
     [](const Parameters& given) { return minatar::make<Freeway>("minatar-freeway", given); },
-    parameters_of<minatar::Settings>};
+    parameters_of<minatar::SettingsOf<Freeway>>};
 
 }  // namespace quoll

@@ -139,6 +139,7 @@ struct Seaquest {
       {"aboard", 'd', Ink::reward},       {"diver", 'D', Ink::reward}};
   static constexpr Move minimal[] = {stay, left, up, right, down, fire};
   static constexpr std::optional<std::pair<double, double>> reward_bounds{};
+  static constexpr bool ramps = true;
   static constexpr int full_oxygen = 200;
 
   struct Position : Common {
@@ -377,6 +378,6 @@ const WorldEntry minatar_seaquest_world{
     "MinAtar: shoot fish and submarines, bring divers to the surface",
     "Young and Tian 2019, arXiv 1903.03176; MinAtar 1.0.15",
     [](const Parameters& given) { return minatar::make<Seaquest>("minatar-seaquest", given); },
-    parameters_of<minatar::Settings>};
+    parameters_of<minatar::SettingsOf<Seaquest>>};
 
 }  // namespace quoll

@@ -42,6 +42,7 @@ struct SpaceInvaders {
                                          {"alien bullet", '!', Ink::other}};
   static constexpr Move minimal[] = {stay, left, right, fire};
   static constexpr std::optional<std::pair<double, double>> reward_bounds{};
+  static constexpr bool ramps = true;
 
   enum class Direction : std::uint8_t { left, right };
   static constexpr std::string_view direction_names[] = {"left", "right"};
@@ -160,6 +161,6 @@ const WorldEntry minatar_space_invaders_world{
     [](const Parameters& given) {
       return minatar::make<SpaceInvaders>("minatar-space-invaders", given);
     },
-    parameters_of<minatar::Settings>};
+    parameters_of<minatar::SettingsOf<SpaceInvaders>>};
 
 }  // namespace quoll

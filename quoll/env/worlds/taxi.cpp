@@ -46,6 +46,10 @@ struct TaxiSettings {
              "with fickle: probability that the passenger changes his destination");
     describe.choice("seeding", seeding, seeding_names, "whose random numbers a seed gives");
   }
+  std::string_view needs(std::string_view name) const {
+    if (name == "rainy_probability" && !rainy) return "rainy=true";
+    return name == "fickle_probability" && !fickle ? "fickle=true" : "";
+  }
 };
 
 struct Way {

@@ -195,6 +195,9 @@ struct MovingAiSettings : RobotSettings {
     d("scen", scen, "a file of problems (.scen); one of them gives goal and start");
     d("problem", problem, 1, 1e9, "which problem of that file, from 1");
   }
+  std::string_view needs(std::string_view name) const {
+    return name == "problem" && scen.empty() ? "scen=FILE" : RobotSettings::needs(name);
+  }
 };
 
 // Goal and start of the problem asked for, where they are not given themselves.
