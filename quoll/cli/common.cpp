@@ -46,6 +46,9 @@ Result<WorldSource> WorldOption::source() const {
   for (const std::string& text : with) {
     const auto parameter = key_value(text, "--with");
     if (!parameter) return parameter.error();
+    if (gives(source.parameters, parameter->first)) {
+      return Error{"--with " + parameter->first, 0, 0, "stands twice", ""};
+    }
     source.parameters.push_back(*parameter);
   }
   return source;
@@ -54,6 +57,23 @@ Result<WorldSource> WorldOption::source() const {
 Result<World> WorldOption::open() const {
   const Result<WorldSource> from = source();
   if (!from) return from.error();
+  return find_world(from->name, from->parameters);
+}
+
+Result<World> WorldOption::open(const GivenSettings& given) const {
+  const Result<WorldSource> from = source();
+  if (!from) return from.error();
+  const auto settings = given.given();
+  if (!settings) return settings.error();
+  constexpr std::pair<std::string_view, std::string_view> same[] = {{"discount", "discount"},
+                                                                    {"episode_steps", "limit"}};
+  for (const auto& [setting, parameter] : same) {
+    if (!gives(*settings, setting) || !gives(from->parameters, parameter)) continue;
+    std::string flag = "--" + std::string(setting);
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    return Error{"--with " + std::string(parameter), 0, 0,
+                 "has no effect beside " + flag + ": one of them expected", ""};
+  }
   return find_world(from->name, from->parameters);
 }
 
@@ -211,6 +231,10 @@ void catch_interrupts() {
 }
 bool interrupted() {
   return interrupt_count > 0;
+}
+void release_interrupts() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
 }
 
 void ProgressDisplay::show(std::uint64_t done_now, std::uint64_t total, double seconds,

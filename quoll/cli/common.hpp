@@ -23,14 +23,19 @@ Result<double> parse_discount(const std::string& text);
 /// Prints "quoll: message" on stderr.
 Exit fail(const Error& error);
 
+struct GivenSettings;
+
 /// The world of a command line: WORLD and --with key=value.
 struct WorldOption {
   std::string name;
   std::vector<std::string> with;
 
   void declare(Options& options);
+  /// Refuses a key given twice.
   Result<WorldSource> source() const;
   Result<World> open() const;
+  /// Refuses a discount or a step limit that is also given as a setting.
+  Result<World> open(const GivenSettings& given) const;
 };
 
 /// --json, --quiet, --all, -o.
@@ -75,6 +80,8 @@ bool stderr_is_terminal();
 /// From now on Ctrl-C sets a flag instead of ending the program; a second one ends it.
 void catch_interrupts();
 bool interrupted();
+/// From now on Ctrl-C ends the program again.
+void release_interrupts();
 
 /// Progress of a long work on stderr: a bar on a terminal, a line every 2 s in a pipe, nothing with
 /// `quiet`. Shows nothing for works under half a second.

@@ -249,7 +249,7 @@ Exit evaluate(const EvaluateOptions& options) {
   EvaluationSettings asked;
   const Result<void> applied = options.given.apply(settings_of(asked));
   if (!applied) return fail(applied.error());
-  const Result<World> world = options.world.open();
+  const Result<World> world = options.world.open(options.given);
   if (!world) return fail(world.error());
   if (options.policy.empty()) {
     return fail(

@@ -310,7 +310,7 @@ Result<void> check_words(const ExplainOptions& options) {
 }
 
 Exit explain(const ExplainOptions& options) {
-  const Result<World> world = options.world.open();
+  const Result<World> world = options.world.open(options.how);
   if (!world) return fail(world.error());
   if (!world->mdp) {
     return fail({"explain", 0, 0, "the model of " + world->name + " is not known", ""});

@@ -11,8 +11,8 @@
 #include "quoll/cli/learn_files.hpp"
 #include "quoll/cli/learn_report.hpp"
 #include "quoll/cli/policy_file.hpp"
+#include "quoll/cli/same_world.hpp"
 #include "quoll/cli/verbs.hpp"
-#include "quoll/model/digest.hpp"
 
 namespace quoll::cli {
 namespace {
@@ -70,36 +70,15 @@ Result<void> same_settings(const LearnOptions& options, const Run& run) {
   return {};
 }
 
-bool same_model(const World& one, const World& other) {
-  if (one.mdp && other.mdp) return digest(*one.mdp) == digest(*other.mdp);
-  return !one.mdp && !other.mdp && one.name == other.name && one.parameters == other.parameters;
-}
-
 // The world of the command line is the run's, however it is spelled; its parameters may be left
 // out.
 Result<void> same_world(const LearnOptions& options, const Result<World>& given, const Run& run) {
   const Result<WorldSource> source = options.world.source();
   if (!source) return source.error();
-  const bool same_name = source->name == run.source().name;
   const auto& with = source->parameters;
+  const bool same_name = source->name == run.source().name;
   if (same_name && (with.empty() || with == run.source().parameters)) return {};
-  if (given && same_model(*given, run.world())) return {};
-  if (!same_name && !given) return given.error();
-  if (!same_name) {
-    return Error{"--resume", 0, 0,
-                 "the saved run learns " + run.source().name + ", not " + source->name, ""};
-  }
-  const auto words = [](const WorldSource& one) {
-    std::string text;
-    for (const auto& [key, value] : one.parameters) {
-      text += (text.empty() ? "" : " ") + key + "=" + value;
-    }
-    return text.empty() ? std::string("none") : text;
-  };
-  return Error{"--with", 0, 0,
-               "the saved run has " + words(run.source()) + ", not " + words(*source) +
-                   "; a resumed run keeps its world",
-               ""};
+  return given ? check_same_world(run, options.resume_file(), *given) : given.error();
 }
 
 Result<Run> resume(const LearnOptions& options, bool watch) {
@@ -147,8 +126,14 @@ Result<Run> open_run(const LearnOptions& options, const RunSettings& limits) {
   settings.learn.until_stable = watch;
   const Result<WorldSource> source = options.world.source();
   if (!source) return source.error();
-  const Result<World> world = options.world.open();
+  const Result<World> world = options.world.open(options.how);
   if (!world) return world.error();
+  if (world->mdp && gives(source->parameters, "seeding")) {
+    return Error{"--with seeding", 0, 0,
+                 "has no effect on learning: a world with a model is learned from its tables, with "
+                 "this program's random numbers",
+                 ""};
+  }
   const Result<std::vector<double>> rewards =
       initial_rewards(settings.learn.initial_rewards, *world);
   if (!rewards) return rewards.error();

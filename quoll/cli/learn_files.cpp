@@ -10,8 +10,8 @@
 
 #include "quoll/base/file.hpp"
 #include "quoll/base/text.hpp"
+#include "quoll/cli/same_world.hpp"
 #include "quoll/experiment/config.hpp"
-#include "quoll/model/digest.hpp"
 
 namespace quoll::cli {
 namespace {
@@ -53,9 +53,8 @@ Result<void> ready(Run& run, const std::string& path) {
 
 // Whether two runs learn the same in the same way, however far they are.
 bool same_run(const Run& one, const Run& other) {
-  if (!one.world().mdp || !other.world().mdp) return false;
   RunSettings first = one.settings(), second = other.settings();
-  return digest(*one.world().mdp) == digest(*other.world().mdp) &&
+  return check_same_world(one, "", other.world()) &&
          config_text(settings_of(first)) == config_text(settings_of(second));
 }
 

@@ -11,8 +11,8 @@
 #include "quoll/base/json_tree.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/judged_run.hpp"
+#include "quoll/cli/same_world.hpp"
 #include "quoll/experiment/run.hpp"
-#include "quoll/model/digest.hpp"
 #include "quoll/model/formats/fields.hpp"
 #include "quoll/model/formats/lines.hpp"
 
@@ -70,13 +70,30 @@ class PolicyBuilder {
   std::vector<bool> given_;
 };
 
+/// The columns of a table of actions: "state,action", or moves on a map, "x,y,state,move,cost".
+struct Columns {
+  static constexpr std::size_t none = Fields::most;
+  std::size_t count = 0;  ///< 0 = the header was not read yet
+  std::size_t state = none, action = none;
+
+  /// Whether the header has both.
+  bool read(const Fields& header) {
+    count = header.count;
+    for (std::size_t i = 0; i < header.count && i < Fields::most; ++i) {
+      if (header.text[i] == "state") state = i;
+      if (header.text[i] == "action" || header.text[i] == "move") action = i;
+    }
+    return state != none && action != none;
+  }
+};
+
 Result<std::vector<Action>> read_csv_policy(const std::string& path, const Mdp& mdp) {
   Result<quoll::Lines> lines = quoll::Lines::open(path);
   if (!lines) return lines.error();
   PolicyBuilder builder(mdp);
   std::string_view line;
   Fields fields;
-  bool header = false;
+  Columns columns;
   while (lines->next(line)) {
     if (trim(line).empty() || line.front() == '#') continue;
     Error place{path, lines->number(), 0, "", ""};
@@ -85,46 +102,43 @@ Result<std::vector<Action>> read_csv_policy(const std::string& path, const Mdp& 
       place.expected = "a quotation mark without its partner";
       return place;
     }
-    if (!header) {
-      header = fields.count == 2 && fields.text[0] == "state" && fields.text[1] == "action";
-      if (header) continue;
+    if (columns.count == 0) {
+      if (columns.read(fields)) continue;
       place.expected =
           "the header state,action expected, not '" + std::string(line.substr(0, 60)) + "'";
       return place;
     }
-    if (fields.count != 2) {
-      place.expected = "two fields expected, state,action, not " + std::to_string(fields.count);
+    if (fields.count != columns.count) {
+      place.expected = counted(columns.count, "field") + " expected, as in the header, not " +
+                       std::to_string(fields.count);
       return place;
     }
     std::optional<std::string_view> action;
-    if (!fields.text[1].empty()) action = fields.text[1];
-    const Result<void> added = builder.add(fields.text[0], action, place);
+    if (!fields.text[columns.action].empty()) action = fields.text[columns.action];
+    const Result<void> added = builder.add(fields.text[columns.state], action, place);
     if (!added) return added.error();
   }
   if (!lines->error().empty()) return Error{path, lines->number(), 0, lines->error(), ""};
-  if (!header) return Error{path, 0, 0, "the header state,action expected; the file is empty", ""};
+  if (columns.count == 0)
+    return Error{path, 0, 0, "the header state,action expected; the file is empty", ""};
   return builder.take();
 }
 
+// A name, a number from 0, or nothing for null; an object as learn and solve write them.
 Result<void> add_json_row(PolicyBuilder& builder, const Tree& row, Error place) {
-  const std::string where = std::exchange(place.expected, "");
   const Tree* const state = row.find("state");
   const Tree* const action = row.find("action");
-  const bool named = state && std::holds_alternative<std::string>(state->value);
-  if (named && action) {
-    const std::string& name = std::get<std::string>(state->value);
-    if (std::holds_alternative<std::nullptr_t>(action->value)) {
-      return builder.add(name, std::nullopt, place);
-    }
-    if (const auto* const text = std::get_if<std::string>(&action->value)) {
-      return builder.add(name, *text, place);
-    }
-    if (const auto* const number = std::get_if<std::int64_t>(&action->value)) {
-      return builder.add(name, std::to_string(*number), place);
-    }
+  const auto* const name = state ? std::get_if<std::string>(&state->value) : nullptr;
+  const auto* const word = action ? std::get_if<std::string>(&action->value) : nullptr;
+  const auto* const number = action ? std::get_if<std::int64_t>(&action->value) : nullptr;
+  const bool none = action && std::holds_alternative<std::nullptr_t>(action->value);
+  if (!name || !(word || number || none)) {
+    place.expected += "an object with a state and an action (names) expected";
+    return place;
   }
-  place.expected = where + "an object with a state and an action (names) expected";
-  return place;
+  place.expected.clear();
+  if (none) return builder.add(*name, std::nullopt, std::move(place));
+  return builder.add(*name, word ? *word : std::to_string(*number), std::move(place));
 }
 
 Result<std::vector<Action>> read_json_policy(const std::string& path, const Mdp& mdp) {
@@ -132,57 +146,35 @@ Result<std::vector<Action>> read_json_policy(const std::string& path, const Mdp&
   if (!content) return content.error();
   const Result<Tree> json = read_json(*content, path);
   if (!json) return json.error();
+  std::string_view key;
   const Tree::List* list = nullptr;
-  std::string called;
-  for (const char* name : {"policy", "values"}) {
-    const Tree* const found = json->find(name);
-    if (list != nullptr || found == nullptr) continue;
-    list = std::get_if<Tree::List>(&found->value);
-    called = name;
+  for (const std::string_view name : {"policy", "values"}) {
+    const Tree* const found = list ? nullptr : json->find(name);
+    if (found) list = std::get_if<Tree::List>(&found->value);
+    if (list && key.empty()) key = name;
   }
   if (list == nullptr) {
     return Error{path, 0, 0, "a list \"policy\" or \"values\" expected, as learn and solve write",
                  ""};
   }
-  if (json->find("omitted") != nullptr && list->empty()) {
-    return Error{path, 0, 0, "the list \"" + called + "\" was left out; write it with --all", ""};
+  if (json->find("omitted") && list->empty()) {
+    return Error{path, 0, 0,
+                 "the list \"" + std::string(key) + "\" was left out; write it with --all", ""};
   }
   PolicyBuilder builder(mdp);
-  std::size_t index = 0;
-  for (const Tree& row : *list) {
-    const Error place{path, 0, 0, called + "[" + std::to_string(index++) + "]: ", ""};
-    const Result<void> added = add_json_row(builder, row, place);
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const Error place{path, 0, 0, std::string(key) + "[" + std::to_string(i) + "]: ", ""};
+    const Result<void> added = add_json_row(builder, (*list)[i], place);
     if (!added) return added.error();
   }
   return builder.take();
 }
 
-Parameters sorted(Parameters parameters) {
-  std::sort(parameters.begin(), parameters.end());
-  return parameters;
-}
-
-// "cartpole --with bins=6,6,12,12"
-std::string described(const std::string& name, const Parameters& parameters) {
-  std::string text = name;
-  for (const auto& [key, value] : parameters) text += " --with " + key + "=" + value;
-  return text;
-}
-
 Result<std::vector<Action>> read_run_policy(const std::string& path, const World& world) {
   const Result<Run> run = Run::load(path, false);
   if (!run) return run.error();
-  const bool same = run->world().mdp && world.mdp
-                        ? digest(*run->world().mdp) == digest(*world.mdp)
-                        : !run->world().mdp && !world.mdp && run->world().name == world.name &&
-                              sorted(run->source().parameters) == sorted(world.parameters);
-  if (!same) {
-    return Error{path, 0, 0,
-                 "this run learned " + described(run->source().name, run->source().parameters) +
-                     (world.mdp ? ", which is not the model of " : ", not ") +
-                     described(world.name, world.parameters),
-                 ""};
-  }
+  const Result<void> same = check_same_world(*run, path, world);
+  if (!same) return same.error();
   const std::string reason = unsound(*run);
   if (!reason.empty()) return Error{path, 0, 0, "no policy to judge: " + reason, ""};
   return greedy_policy(run->trainings().front().learner().estimates());

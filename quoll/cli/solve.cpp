@@ -244,22 +244,40 @@ Result<void> write_answer(const Solved& solved, const std::string& file, const s
   return text ? write_output(file, *text, {world}) : text.error();
 }
 
+/// Whether -o can be written in the form its name asks for; told before the work.
+Result<void> check_form(const SolveOptions& options, const World& world) {
+  const std::string& file = options.output.file;
+  const bool plain = file.find('.', file.find_last_of('/') + 1) == std::string::npos;
+  if (plain || file.ends_with(".json")) return {};  // such as /dev/stdout
+  if (!file.ends_with(".csv") && !file.ends_with(".yaml")) {
+    return Error{"-o", 0, 0,
+                 "a name that ends in .json, .csv or .yaml expected, not '" + file + "'", ""};
+  }
+  if (world.mdp->layout()) return {};
+  return Error{"-o", 0, 0,
+               "a name that ends in .json expected, not '" + file + "': the states of " +
+                   world.name + " are no cells of a grid",
+               ""};
+}
+
 Exit solve(const SolveOptions& options) {
   ExactSettings asked;
   const Result<void> applied = options.given.apply(settings_of(asked));
   if (!applied) return fail(applied.error());
   const Stopwatch load;
-  const Result<World> world = options.world.open();
+  const Result<World> world = options.world.open(options.given);
   if (!world) return fail(world.error());
   const double seconds_load = load.seconds();
   if (!world->mdp) {
     return fail(
         {"", 0, 0, "the model of " + world->name + " is not known: it cannot be solved", ""});
   }
+  if (const Result<void> fits = check_form(options, *world); !fits) return fail(fits.error());
   catch_interrupts();
   const Stopwatch work;
   Result<Solution> solution = run_solver(options, asked, *world->mdp);
   const double seconds = work.seconds();
+  release_interrupts();
   if (!solution) return fail(solution.error());
   const Solved solved{*world, *world->mdp, asked, std::move(*solution), seconds, seconds_load};
   if (!options.output.file.empty()) {

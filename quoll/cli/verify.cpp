@@ -11,8 +11,8 @@
 #include "quoll/cli/common.hpp"
 #include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/policy_file.hpp"
+#include "quoll/cli/same_world.hpp"
 #include "quoll/cli/verbs.hpp"
-#include "quoll/model/digest.hpp"
 
 namespace quoll::cli {
 namespace {
@@ -103,11 +103,8 @@ Exit verify(const VerifyOptions& options) {
   const Result<Run> run = Run::load(file, false);
   if (!run) return fail(run.error());
   if (!world->mdp) return fail({"", 0, 0, "the model of " + world->name + " is not known", ""});
-  if (!run->world().mdp || digest(*run->world().mdp) != digest(*world->mdp)) {
-    return fail(
-        {file, 0, 0,
-         "this run learned " + run->source().name + ", which is not the model of " + world->name,
-         ""});
+  if (const Result<void> same = check_same_world(*run, file, *world); !same) {
+    return fail(same.error());
   }
   const Result<Outcome> outcome = examine(*run);
   if (!outcome) return fail(outcome.error());
