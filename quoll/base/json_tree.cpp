@@ -1,6 +1,8 @@
 #include "quoll/base/json_tree.hpp"
 
 #include <charconv>
+#include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <system_error>
 
@@ -16,6 +18,14 @@ void write(JsonWriter& json, std::nullptr_t) {
 template <class T>
 void write(JsonWriter& json, const T& value) {
   json.value(value);
+}
+// Infinities and nan, which are no numbers in JSON, are written as texts: a state stays whole.
+template <std::floating_point T>
+void write(JsonWriter& json, const T& value) {
+  if (std::isfinite(value))
+    json.value(value);
+  else
+    json.value(shortest(value));
 }
 void write(JsonWriter& json, const Tree::List& list) {
   json.begin_array();

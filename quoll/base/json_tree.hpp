@@ -9,7 +9,8 @@
 
 namespace quoll {
 
-/// Writes the tree as the next value: floats and doubles in their shortest forms.
+/// Writes the tree as the next value: floats and doubles in their shortest forms, "inf", "-inf" and
+/// "nan" as texts.
 void write_tree(JsonWriter& json, const Tree& tree);
 /// The tree on one line.
 std::string json_text(const Tree& tree);

@@ -68,7 +68,8 @@ class TreeWriter {
 };
 
 /// Reads fields back; every field must be there, in any order, and no other. The first thing that
-/// does not fit is kept as an error whose `expected` says what and where ("x[2]: a number").
+/// does not fit is kept as an error whose `expected` says what and where ("x[2]: a number
+/// expected").
 class TreeReader {
  public:
   /// `root` must outlive the reader.
@@ -78,7 +79,7 @@ class TreeReader {
   void operator()(std::string_view name, T& field) {
     if (!good()) return;
     const Tree* const found = at_->find(name);
-    if (!found) return differs(std::string(name), "is missing");
+    if (!found) return differs(std::string(name), "expected, but missing");
     ++used_;
     descend(*found, (path_.empty() ? "" : ".") + std::string(name), field);
   }
@@ -113,11 +114,12 @@ class TreeReader {
     } else if constexpr (std::is_same_v<T, std::string>) {
       take_text(field);
     } else if constexpr (requires { field.persist(*this); }) {
-      if (!std::holds_alternative<Tree::Object>(at_->value)) return differs("", "an object");
+      if (!std::holds_alternative<Tree::Object>(at_->value))
+        return differs("", "an object expected");
       const std::size_t outside = std::exchange(used_, 0);
       field.persist(*this);
       if (good() && used_ != std::get<Tree::Object>(at_->value).size()) {
-        differs("", "a field too many");
+        differs("", "no further field expected");
       }
       used_ = outside;
     } else {
@@ -138,11 +140,11 @@ class TreeReader {
   template <class Sequence>
   void take_list(Sequence& field) {
     const auto* const list = std::get_if<Tree::List>(&at_->value);
-    if (!list) return differs("", "a list");
+    if (!list) return differs("", "a list expected");
     if constexpr (requires { field.resize(1); }) {
       field.resize(list->size());
     } else if (list->size() != field.size()) {
-      return differs("", "a list of " + std::to_string(field.size()));
+      return differs("", "a list of " + std::to_string(field.size()) + " expected");
     }
     for (std::size_t i = 0; i < list->size() && good(); ++i) {
       descend((*list)[i], "[" + std::to_string(i) + "]", field[i]);

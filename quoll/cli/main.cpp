@@ -118,6 +118,9 @@ void add_option(CLI::App& app, const Option& option) {
             *target = static_cast<unsigned>(*count);
           };
           return app.add_option_function<std::string>(option.names, take, option.sentence);
+        } else if constexpr (std::is_same_v<Target, std::optional<std::string>*>) {
+          const auto take = [target](const std::string& text) { *target = text; };
+          return app.add_option_function<std::string>(option.names, take, option.sentence);
         } else {
           return app.add_option(option.names, *target, option.sentence);
         }

@@ -3,6 +3,7 @@
 // from.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -11,9 +12,10 @@
 namespace quoll::cli {
 
 struct Option {
-  /// Receives what was given: a switch, a word, words of a repeated option, or a call per word.
-  using Target = std::variant<bool*, std::string*, unsigned*, std::vector<std::string>*,
-                              std::function<void(const std::string&)>>;
+  /// Receives what was given: a switch, a word (optional: an empty one is told from none), words of
+  /// a repeated option, or a call per word.
+  using Target = std::variant<bool*, std::string*, std::optional<std::string>*, unsigned*,
+                              std::vector<std::string>*, std::function<void(const std::string&)>>;
   std::string names;  ///< "-o,--output"; without dashes: a positional word
   std::string type;   ///< "FILE", "number in [0, 1]"; empty = a switch
   std::string sentence;

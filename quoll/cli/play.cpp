@@ -1,21 +1,17 @@
 // quoll play WORLD: one lane of a world, step by step, by a policy, by given actions or by hand.
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <charconv>
-#include <cstdio>
-#include <iostream>
+#include <cmath>
 #include <optional>
 
-#include "quoll/act/policy.hpp"
-#include "quoll/base/file.hpp"
 #include "quoll/base/json_tree.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
-#include "quoll/cli/policy_file.hpp"
+#include "quoll/cli/play_actions.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/experiment/player.hpp"
+#include "quoll/model/formats/fields.hpp"
 #include "quoll/report/drawing_svg.hpp"
 
 namespace quoll::cli {
@@ -39,155 +35,29 @@ struct PlaySettings {
 struct PlayOptions {
   WorldOption world;
   GivenSettings given;
-  std::string policy, actions, state, draws, render, record, drawing;
+  ActionOptions actions;
+  std::optional<std::string> state, draws, record, drawing;
+  std::string render;
   bool json = false;
   bool go_on = false;
 };
 
-/// "@FILE" -> the file's text, else the text itself.
-Result<std::string> text_or_file(const std::string& given) {
-  if (!given.starts_with('@')) return given;
-  return read_file(given.substr(1));
-}
-
-/// Words between commas, blanks and line ends.
-std::vector<std::string> words_of(std::string_view text) {
-  std::vector<std::string> words(1);
-  for (const char letter : text) {
-    if (letter == ',' || letter == ' ' || letter == '\n' || letter == '\r' || letter == '\t') {
-      if (!words.back().empty()) words.emplace_back();
-    } else {
-      words.back() += letter;
-    }
-  }
-  if (words.back().empty()) words.pop_back();
-  return words;
-}
-
-Result<std::shared_ptr<const std::vector<double>>> read_draws(const std::string& given) {
-  if (given.empty()) return std::shared_ptr<const std::vector<double>>();
-  const Result<std::string> text = text_or_file(given);
+Result<std::shared_ptr<const std::vector<double>>> read_draws(
+    const std::optional<std::string>& given) {
+  if (!given) return std::shared_ptr<const std::vector<double>>();
+  const Result<std::string> text = text_or_file(*given);
   if (!text) return text.error();
+  const Result<std::vector<std::string>> words = words_of(*text, "--draws");
+  if (!words) return words.error();
   std::vector<double> draws;
-  for (const std::string& word : words_of(*text)) {
-    double draw = 0.0;
-    const auto read = std::from_chars(word.data(), word.data() + word.size(), draw);
-    if (read.ec != std::errc() || read.ptr != word.data() + word.size() || !(draw >= 0.0)) {
+  for (const std::string& word : *words) {
+    const std::optional<double> draw = parse_number(word);
+    if (!draw || !(*draw >= 0.0) || !std::isfinite(*draw)) {
       return Error{"--draws", 0, 0, "numbers from 0 on expected, not '" + word + "'", ""};
     }
-    draws.push_back(draw);
+    draws.push_back(*draw);
   }
   return std::make_shared<const std::vector<double>>(std::move(draws));
-}
-
-/// Who decides: the next action, or nothing when there is none left (end of input, `quit`).
-class Chooser {
- public:
-  virtual ~Chooser() = default;
-  virtual Result<std::optional<Action>> choose(const Player& player) = 0;
-  virtual std::string name() const = 0;
-};
-
-class GivenActions final : public Chooser {
- public:
-  explicit GivenActions(std::vector<std::string> words) : words_(std::move(words)) {}
-  Result<std::optional<Action>> choose(const Player& player) override {
-    if (taken_ == words_.size()) return std::optional<Action>();
-    Result<Action> found = player.find_action(words_[taken_++]);
-    if (!found) {
-      Error error = found.error();
-      error.file = "--actions";
-      return error;
-    }
-    return std::optional<Action>(*found);
-  }
-  std::string name() const override { return "given actions"; }
-
- private:
-  std::vector<std::string> words_;
-  std::size_t taken_ = 0;
-};
-
-class UniformActions final : public Chooser {
- public:
-  explicit UniformActions(std::uint64_t seed) : coin_(stream(seed, "behaviour")) {}
-  Result<std::optional<Action>> choose(const Player& player) override {
-    const Action count = player.actions();
-    if (count == 0) return std::optional<Action>();
-    return std::optional<Action>(coin_.below(count));
-  }
-  std::string name() const override { return "policy uniform"; }
-
- private:
-  Rng coin_;
-};
-
-class TableActions final : public Chooser {
- public:
-  TableActions(std::string file, std::vector<Action> actions)
-      : file_(std::move(file)), policy_(std::move(actions)) {}
-  Result<std::optional<Action>> choose(const Player& player) override {
-    const Action action = policy_(player.now().number);
-    if (action != no_action) return std::optional<Action>(action);
-    if (player.actions() == 0) return std::optional<Action>();
-    return Error{"--policy", 0, 0,
-                 "the policy has no action for the state " + json_text(player.now().state), ""};
-  }
-  std::string name() const override { return "policy " + file_; }
-
- private:
-  std::string file_;
-  TablePolicy policy_;
-};
-
-/// A line per action on stdin; asks on stderr when a person sits there.
-class HandActions final : public Chooser {
- public:
-  Result<std::optional<Action>> choose(const Player& player) override {
-    const bool person = isatty(0) != 0;
-    for (;;) {
-      if (person) fmt::print(stderr, "action ({})? ", choices(player));
-      std::string line;
-      if (!std::getline(std::cin, line)) return std::optional<Action>();
-      const std::vector<std::string> words = words_of(line);
-      if (words.empty()) continue;
-      if (words[0] == "quit" || words[0] == "q") return std::optional<Action>();
-      Result<Action> found = player.find_action(words[0]);
-      if (found) return std::optional<Action>(*found);
-      if (!person) return found.error();
-      fmt::print(stderr, "{}\n", message(found.error()));
-    }
-  }
-  std::string name() const override { return "by hand"; }
-
- private:
-  static std::string choices(const Player& player) {
-    std::string text;
-    for (Action a = 0; a < player.actions() && a < 12; ++a) {
-      text += (a ? ", " : "") + player.action_name(a);
-    }
-    return text + (player.actions() > 12 ? ", ..." : "") + "; quit";
-  }
-};
-
-Result<std::unique_ptr<Chooser>> chooser(const PlayOptions& options, const World& world,
-                                         std::uint64_t seed) {
-  if (!options.policy.empty() && !options.actions.empty()) {
-    return Error{"--actions", 0, 0, "a policy or actions expected, not both", ""};
-  }
-  if (!options.actions.empty()) {
-    const Result<std::string> text = text_or_file(options.actions);
-    if (!text) return text.error();
-    return std::unique_ptr<Chooser>(std::make_unique<GivenActions>(words_of(*text)));
-  }
-  if (options.policy == "uniform") {
-    return std::unique_ptr<Chooser>(std::make_unique<UniformActions>(seed));
-  }
-  if (options.policy.empty()) return std::unique_ptr<Chooser>(std::make_unique<HandActions>());
-  Result<std::vector<Action>> actions = read_policy(options.policy, world);
-  if (!actions) return actions.error();
-  return std::unique_ptr<Chooser>(
-      std::make_unique<TableActions>(options.policy, std::move(*actions)));
 }
 
 /// --state: @FILE.json, JSON, or the name or number of a state.
@@ -229,16 +99,10 @@ std::string json_line(const Moment& now) {
 }
 
 std::string csv_line(std::uint64_t episode, const Moment& now) {
-  const auto quoted = [](std::string text) {
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
-    for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) {
-      text.insert(at, 1, '"');
-    }
-    return '"' + text + '"';
-  };
-  return fmt::format("{},{},{},{},{},{:d},{:d}\n", episode, now.t, quoted(state_text(now)),
-                     quoted(now.action ? now.action_name : ""),
-                     now.action ? shortest(now.reward) : "", now.terminated, now.truncated);
+  const std::string move =
+      now.action ? as_field(now.action_name) + "," + shortest(now.reward) : std::string(",");
+  return fmt::format("{},{},{},{},{:d},{:d}\n", episode, now.t, as_field(state_text(now)), move,
+                     now.terminated, now.truncated);
 }
 
 /// Plays and prints as it goes.
@@ -278,7 +142,7 @@ class Session {
  private:
   void show() {
     const Moment& now = player_.now();
-    if (!options_.record.empty()) log_ += csv_line(episode_, now);
+    if (options_.record) log_ += csv_line(episode_, now);
     std::string text;
     if (options_.json) {
       text = json_line(now);
@@ -307,8 +171,16 @@ class Session {
   bool printed_ = true;
 };
 
-Result<void> write_drawing(const PlayOptions& options, const World& world, const Player& player) {
-  if (options.drawing.empty()) return {};
+/// Writes what --record and --drawing ask for; called before the first step too, so that a name
+/// that cannot be written is told at once.
+Result<void> write_files(const PlayOptions& options, const World& world, const Player& player,
+                         const std::string& log) {
+  const std::initializer_list<std::string> inputs = {options.world.name, options.actions.policy};
+  if (options.record) {
+    const Result<void> written = write_output(*options.record, log, inputs);
+    if (!written) return written;
+  }
+  if (!options.drawing) return {};
   const Drawing drawing = player.drawing();
   if (drawing.width <= 0.0) {
     return Error{"--drawing", 0, 0,
@@ -316,7 +188,35 @@ Result<void> write_drawing(const PlayOptions& options, const World& world, const
   }
   const Picture picture =
       drawing_svg(drawing, fmt::format("{}, step {}", world.name, player.now().t));
-  return write_output(options.drawing, picture.svg, {options.world.name, options.policy});
+  return write_output(*options.drawing, picture.svg, inputs);
+}
+
+Result<void> check_forms(const PlayOptions& options) {
+  if (options.drawing && !options.drawing->ends_with(".svg")) {
+    return Error{"--drawing", 0, 0,
+                 "a name that ends in .svg expected, not '" + *options.drawing + "'", ""};
+  }
+  if (!options.render.empty() && options.render != "text") {
+    return Error{"--render", 0, 0,
+                 "text expected, not '" + options.render + "' (a picture: --drawing FILE.svg)", ""};
+  }
+  return {};
+}
+
+Result<void> begin(const PlayOptions& options, const World& world, Player& player) {
+  if (options.state) {
+    const Result<void> done = place(player, *options.state);
+    if (!done) return done;
+  } else {
+    player.restart();
+    if (!player.draws_left()) {
+      return Error{"--draws", 0, 0, "a draw in its range expected for the start", ""};
+    }
+  }
+  if (options.render == "text" && !options.json && player.text().empty()) {
+    return Error{"--render", 0, 0, "the world " + world.name + " has no text form", ""};
+  }
+  return {};
 }
 
 Result<int> played(const PlayOptions& options) {
@@ -324,45 +224,24 @@ Result<int> played(const PlayOptions& options) {
   if (const Result<void> applied = options.given.apply(settings_of(asked)); !applied) {
     return applied.error();
   }
-  if (!options.drawing.empty() && !options.drawing.ends_with(".svg")) {
-    return Error{"--drawing", 0, 0,
-                 "a name that ends in .svg expected, not '" + options.drawing + "'", ""};
-  }
-  if (!options.render.empty() && options.render != "text") {
-    return Error{"--render", 0, 0,
-                 "text expected, not '" + options.render + "' (a picture: --drawing FILE.svg)", ""};
-  }
-  const Result<World> world = options.world.open();
+  if (const Result<void> fit = check_forms(options); !fit) return fit.error();
+  const Result<World> world = options.world.open(options.given);
   if (!world) return world.error();
   const auto draws = read_draws(options.draws);
   if (!draws) return draws.error();
-  const Result<std::unique_ptr<Chooser>> who = chooser(options, *world, asked.seed);
+  const Result<std::unique_ptr<Chooser>> who = chooser(options.actions, *world, asked.seed);
   if (!who) return who.error();
   Player player(*world, {1, asked.seed, asked.episode_steps, *draws},
                 asked.discount > 0.0 ? asked.discount : world->discount);
-  if (options.state.empty()) {
-    player.restart();
-    if (!player.draws_left()) {
-      return Error{"--draws", 0, 0, "a draw in its range expected for the start", ""};
-    }
-  } else if (const Result<void> done = place(player, options.state); !done) {
-    return done.error();
-  }
-  if (options.render == "text" && !options.json && player.text().empty()) {
-    return Error{"--render", 0, 0, "the world " + world->name + " has no text form", ""};
-  }
+  if (const Result<void> begun = begin(options, *world, player); !begun) return begun.error();
   catch_interrupts();
   Session session(options, player, **who);
+  const Result<void> ready = write_files(options, *world, player, session.log());
+  if (!ready) return ready.error();
   const Result<void> ran = session.run(asked.steps);
+  const Result<void> written = write_files(options, *world, player, session.log());
   if (!ran) return ran.error();
-  if (!options.record.empty()) {
-    const Result<void> written =
-        write_output(options.record, session.log(), {options.world.name, options.policy});
-    if (!written) return written.error();
-  }
-  if (const Result<void> drawn = write_drawing(options, *world, player); !drawn) {
-    return drawn.error();
-  }
+  if (!written) return written.error();
   return session.printed() ? int{done} : int{user_error};
 }
 
@@ -371,11 +250,7 @@ Result<int> played(const PlayOptions& options) {
 void declare_play(Options& options) {
   auto given = std::make_shared<PlayOptions>();
   given->world.declare(options);
-  options.option("--policy", &given->policy, "FILE|uniform",
-                 "who decides: a .csv, .json or .quoll file, or uniform");
-  options.option("--actions", &given->actions, "A,B,...|@FILE",
-                 "the actions to take, by name or number; without --policy and --actions they are "
-                 "read from stdin, one a line");
+  given->actions.declare(options);
   options.option("--state", &given->state, "STATE|@FILE.json",
                  "begin in this state: its name or number, or the JSON that --json shows");
   options.option("--draws", &given->draws, "NUMBERS|@FILE",

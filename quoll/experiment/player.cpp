@@ -42,8 +42,18 @@ Result<void> Player::restart(const Tree& state) {
   if (Result<void> done = environment_->inspector()->set(0, state, at); !done) return done;
   state_ = at;
   see();
-  now_.terminated = actions() == 0;
+  now_.terminated = actions() == 0 || rests();
   return {};
+}
+
+// Where actions are not counted by state, an end is known by what it does: nothing.
+bool Player::rests() const {
+  if (std::holds_alternative<std::string>(now_.state.value)) return false;
+  Player twin(world_, Lanes(), discount_);
+  Inspector& inspector = *twin.environment_->inspector();
+  if (!inspector.set(0, now_.state, twin.state_)) return false;
+  twin.step(0);
+  return twin.now_.terminated && twin.now_.reward == 0.0 && twin.now_.state == now_.state;
 }
 
 void Player::step(Action action) {

@@ -55,6 +55,7 @@ class Player {
  private:
   Experience columns();
   void see();
+  bool rests() const;
 
   const World& world_;
   std::unique_ptr<Environment> environment_;

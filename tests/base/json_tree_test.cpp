@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 namespace quoll {
 namespace {
 
@@ -24,6 +27,12 @@ TEST(JsonTree, ReadsBackWhatItWrites) {
 TEST(JsonTree, AFloatIsWrittenAsAFloat) {
   EXPECT_EQ(json_text(Tree(0.1f)), "0.1");
   EXPECT_EQ(json_text(Tree(double{0.1f})), "0.10000000149011612");
+}
+
+TEST(JsonTree, WhatIsNoNumberInJsonIsAText) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(json_text(Tree(Tree::List{Tree(infinity), Tree(-infinity), Tree(std::nanf(""))})),
+            R"(["inf","-inf","nan"])");
 }
 
 TEST(JsonTree, SaysWhereItIsNotJson) {

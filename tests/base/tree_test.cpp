@@ -82,8 +82,8 @@ TEST(Tree, WhatDoesNotFitIsNamed) {
     EXPECT_EQ(tree_of(read), tree_of(Everything{}));
     return done ? "read" : done.error().expected;
   };
-  EXPECT_EQ(reason([](auto& o) { o.pop_back(); }), "name: is missing");
-  EXPECT_EQ(reason([](auto& o) { o.emplace_back("more", Tree(true)); }), "a field too many");
+  EXPECT_EQ(reason([](auto& o) { o.pop_back(); }), "name: expected, but missing");
+  EXPECT_EQ(reason([](auto& o) { o.emplace_back("more", Tree(true)); }), "no further field expected");
   EXPECT_EQ(reason([](auto& o) { o[0].second = Tree(std::int64_t{2}); }),
             "flag: true or false expected");
   EXPECT_EQ(reason([](auto& o) { o[1].second = Tree(std::int64_t{128}); }),
