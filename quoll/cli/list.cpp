@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <memory>
 
 #include "quoll/act/exploration.hpp"
 #include "quoll/act/start.hpp"
@@ -22,20 +23,14 @@ struct Line {
   std::string name, second, summary;
 };
 
-struct Topic {
-  std::string_view name;
-  std::string_view second_key;  ///< key and title of the second column, or empty
-  std::vector<Line> (*lines)();
-};
-
-/// What `list worlds` says of one world, with its standard parameters.
-struct WorldLine {
-  const WorldEntry* entry;
-  std::string offers;  ///< "16 states" or "4 numbers", "10x10x4 flags"
-  std::uint32_t actions = 0;
-  std::uint64_t limit = 0;
-  double discount = 1.0;
-  std::string_view libm;  ///< when bits depend on the C library's functions
+/// One thing to list.
+class Topic {
+ public:
+  virtual ~Topic() = default;
+  virtual std::string_view name() const = 0;
+  virtual std::string text() const = 0;
+  /// The members of its list.
+  virtual void write(JsonWriter& json) const = 0;
 };
 
 bool takes(const WorldEntry& entry, std::string_view parameter) {
@@ -45,9 +40,10 @@ bool takes(const WorldEntry& entry, std::string_view parameter) {
   return false;
 }
 
-std::string_view when_libm(const WorldEntry& entry, const World& standard) {
-  if (standard.traits.libm) return "always";
-  if (!takes(entry, "seeding")) return "never";
+/// When bits depend on the C library's functions. A model's draws call none.
+std::string_view when_libm(const WorldEntry& entry, const Offer& standard) {
+  if (standard.libm) return "always";
+  if (standard.spaces.observation == 0 || !takes(entry, "seeding")) return "never";
   const Result<World> gymnasium = entry.make({{"seeding", "gymnasium"}});
   return gymnasium && gymnasium->traits.libm ? "with seeding=gymnasium" : "never";
 }
@@ -62,39 +58,6 @@ std::string offers(const Spaces& spaces) {
   return text + (spaces.whole ? " flags" : " numbers");
 }
 
-std::vector<WorldLine> world_lines() {
-  std::vector<WorldLine> lines;
-  for (const WorldEntry* const entry : worlds()) {
-    const Result<World> world = entry->make({});
-    if (!world) continue;
-    const Spaces spaces = world->make({})->spaces();
-    lines.push_back({entry, offers(spaces), spaces.actions, world->episode_steps, world->discount,
-                     when_libm(*entry, *world)});
-  }
-  return lines;
-}
-
-std::string worlds_text() {
-  using Align = TextTable::Align;
-  TextTable table({{"worlds"},
-                   {"offers"},
-                   {"actions", Align::right},
-                   {"limit", Align::right},
-                   {"discount", Align::right},
-                   {""}});
-  std::string libm;
-  for (const WorldLine& line : world_lines()) {
-    if (line.libm != "never") libm += (libm.empty() ? "" : ", ") + std::string(line.entry->name);
-    table.row({std::string(line.entry->name), line.offers, std::to_string(line.actions),
-               line.limit == 0 ? "-" : grouped(line.limit), shortest(line.discount),
-               std::string(line.entry->summary)});
-  }
-  return table.text() + "quoll list worlds NAME tells a world's parameters, aliases and source\n" +
-         (libm.empty() ? ""
-                       : "with seeding=gymnasium the bits of " + libm +
-                             " depend on the C library's sin and cos\n");
-}
-
 void write_parameters(JsonWriter& json, const WorldEntry& entry) {
   json.key("parameters").begin_array();
   for (const ParameterText& parameter : entry.parameters()) {
@@ -104,21 +67,53 @@ void write_parameters(JsonWriter& json, const WorldEntry& entry) {
   json.end_array();
 }
 
-void write_worlds(JsonWriter& json) {
-  for (const WorldLine& line : world_lines()) {
-    json.begin_object().member("name", line.entry->name);
-    json.key("aliases").begin_array();
-    for (const std::string_view alias : split(line.entry->aliases, ' ')) {
-      if (!alias.empty()) json.value(alias.substr(0, alias.find(':')));
-    }
-    json.end_array().member("summary", line.entry->summary);
-    json.member("offers", line.offers).member("actions", line.actions);
-    json.member("step_limit", line.limit).member("discount", line.discount);
-    json.member("libm", line.libm).member("source", line.entry->source);
-    write_parameters(json, *line.entry);
-    json.end_object();
+void write_world(JsonWriter& json, const WorldEntry& entry) {
+  const Offer offer = offer_of(entry);
+  json.begin_object().member("name", entry.name).key("aliases").begin_array();
+  for (const std::string_view alias : split(entry.aliases, ' ')) {
+    if (!alias.empty()) json.value(alias);
   }
+  json.end_array().member("summary", entry.summary);
+  json.member("offers", offers(offer.spaces)).member("actions", offer.spaces.actions);
+  json.member("step_limit", offer.episode_steps).member("discount", offer.discount);
+  json.member("libm", when_libm(entry, offer)).member("source", entry.source);
+  write_parameters(json, entry);
+  json.end_object();
 }
+
+class Worlds final : public Topic {
+ public:
+  std::string_view name() const override { return "worlds"; }
+  std::string text() const override {
+    using Align = TextTable::Align;
+    TextTable table({{"worlds"},
+                     {"offers"},
+                     {"actions", Align::right},
+                     {"limit", Align::right},
+                     {"discount", Align::right},
+                     {""},
+                     {"source"}});
+    std::string libm;
+    for (const WorldEntry* const entry : worlds()) {
+      const Offer offer = offer_of(*entry);
+      if (when_libm(*entry, offer) != "never") {
+        libm += (libm.empty() ? "" : ", ") + std::string(entry->name);
+      }
+      table.row(
+          {std::string(entry->name), offers(offer.spaces), std::to_string(offer.spaces.actions),
+           offer.episode_steps == 0 ? "-" : grouped(offer.episode_steps), shortest(offer.discount),
+           std::string(entry->summary), std::string(entry->source)});
+    }
+    std::string text =
+        table.text() + "quoll list worlds NAME tells a world's parameters and aliases\n";
+    if (libm.empty()) return text;
+    return text + "with seeding=gymnasium the bits of " + libm +
+           " depend on the C library's sin and cos\n";
+  }
+  void write(JsonWriter& json) const override {
+    for (const WorldEntry* const entry : worlds()) write_world(json, *entry);
+  }
+};
 
 /// quoll list worlds NAME.
 Exit list_world(const std::string& name, bool as_json) {
@@ -130,10 +125,7 @@ Exit list_world(const std::string& name, bool as_json) {
   }
   if (as_json) {
     JsonWriter json(JsonStyle::pretty);
-    json.begin_object().member("name", entry->name).member("aliases", entry->aliases);
-    json.member("summary", entry->summary).member("source", entry->source);
-    write_parameters(json, *entry);
-    json.end_object();
+    write_world(json, *entry);
     return print(json.text() + "\n") ? done : user_error;
   }
   std::string text = fmt::format("{}   {}\n", entry->name, entry->summary);
@@ -183,44 +175,51 @@ std::vector<Line> solver_lines() {
   return lines;
 }
 
-constexpr std::array<Topic, 6> topics{{
-    {"worlds", "", nullptr},
-    {"methods", "rule", method_lines},
-    {"explorations", "", [] { return named(exploration_names, exploration_summaries); }},
-    {"starts", "", [] { return named(start_names, start_summaries); }},
-    {"formats", "extension", format_lines},
-    {"solvers", "", solver_lines},
-}};
+/// A topic of plain lines.
+class Lines final : public Topic {
+ public:
+  using Make = std::vector<Line> (*)();
+  /// `second` = key and title of the second column; empty = there is none.
+  Lines(std::string_view name, std::string_view second, Make lines)
+      : name_(name), second_(second), lines_(lines) {}
 
-std::string topic_text(const Topic& topic) {
-  if (!topic.lines) return worlds_text();
-  const std::vector<Line> lines = topic.lines();
-  bool second = false;
-  for (const Line& line : lines) second = second || !line.second.empty();
-  std::vector<TextTable::Column> columns{{std::string(topic.name)}};
-  if (second) columns.push_back({std::string(topic.second_key)});
-  columns.push_back({""});
-  TextTable table(std::move(columns));
-  for (const Line& line : lines) {
-    if (second)
-      table.row({line.name, line.second, line.summary});
-    else
-      table.row({line.name, line.summary});
-  }
-  return table.text();
-}
-
-void write_topic(JsonWriter& json, const Topic& topic) {
-  json.key(topic.name).begin_array();
-  if (!topic.lines) write_worlds(json);
-  for (const Line& line : topic.lines ? topic.lines() : std::vector<Line>()) {
-    json.begin_object().member("name", line.name);
-    if (!topic.second_key.empty()) {
-      json.member(topic.second_key, line.second);
+  std::string_view name() const override { return name_; }
+  std::string text() const override {
+    std::vector<TextTable::Column> columns{{std::string(name_)}};
+    if (!second_.empty()) columns.push_back({std::string(second_)});
+    columns.push_back({""});
+    TextTable table(std::move(columns));
+    for (const Line& line : lines_()) {
+      if (second_.empty())
+        table.row({line.name, line.summary});
+      else
+        table.row({line.name, line.second, line.summary});
     }
-    json.member("summary", line.summary).end_object();
+    return table.text();
   }
-  json.end_array();
+  void write(JsonWriter& json) const override {
+    for (const Line& line : lines_()) {
+      json.begin_object().member("name", line.name);
+      if (!second_.empty()) json.member(second_, line.second);
+      json.member("summary", line.summary).end_object();
+    }
+  }
+
+ private:
+  std::string_view name_, second_;
+  Make lines_;
+};
+
+std::array<std::unique_ptr<Topic>, 6> topics() {
+  const auto lines = [](std::string_view name, std::string_view second, Lines::Make make) {
+    return std::make_unique<Lines>(name, second, make);
+  };
+  return {std::make_unique<Worlds>(),
+          lines("methods", "rule", method_lines),
+          lines("explorations", "", [] { return named(exploration_names, exploration_summaries); }),
+          lines("starts", "", [] { return named(start_names, start_summaries); }),
+          lines("formats", "extension", format_lines),
+          lines("solvers", "", solver_lines)};
 }
 
 Exit list(const std::string& wanted, bool as_json) {
@@ -229,11 +228,16 @@ Exit list(const std::string& wanted, bool as_json) {
   JsonWriter json(JsonStyle::pretty);
   json.begin_object();
   bool found = false;
-  for (const Topic& topic : topics) {
-    nearest.offer(topic.name);
-    if (!wanted.empty() && wanted != topic.name) continue;
-    text += (found ? "\n" : "") + topic_text(topic);
-    write_topic(json, topic);
+  for (const std::unique_ptr<Topic>& topic : topics()) {
+    nearest.offer(topic->name());
+    if (!wanted.empty() && wanted != topic->name()) continue;
+    if (as_json) {
+      json.key(topic->name()).begin_array();
+      topic->write(json);
+      json.end_array();
+    } else {
+      text += (found ? "\n" : "") + topic->text();
+    }
     found = true;
   }
   json.end_object();
