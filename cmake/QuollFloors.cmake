@@ -54,6 +54,15 @@ function(quoll_floor folder)
   set(quoll_floors ${quoll_floors} ${folder} CACHE INTERNAL "")
 endfunction()
 
+# GMP for a floor, if it was found: its sources see QUOLL_GMP, and what is made of the floor links
+# quoll_gmp_library.
+function(quoll_fractions folder)
+  if(quoll_gmp AND TARGET quoll_${folder})
+    target_compile_definitions(quoll_${folder} PRIVATE QUOLL_GMP)
+    target_include_directories(quoll_${folder} SYSTEM PRIVATE ${GMP_INCLUDE_DIR})
+  endif()
+endfunction()
+
 # All floors together: the library users link, Quoll::Quoll.
 function(quoll_library)
   add_library(quoll STATIC)
@@ -64,7 +73,7 @@ function(quoll_library)
   target_compile_features(quoll PUBLIC cxx_std_20)
   target_include_directories(quoll PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}>
                                           $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  target_link_libraries(quoll PUBLIC Threads::Threads)
+  target_link_libraries(quoll PUBLIC Threads::Threads PRIVATE ${quoll_gmp_library})
   foreach(library ZLIB::ZLIB LibLZMA::LibLZMA)
     if(TARGET ${library})
       target_link_libraries(quoll PRIVATE ${library})

@@ -14,6 +14,7 @@
 #include "quoll/cli/common.hpp"
 #include "quoll/cli/exact.hpp"
 #include "quoll/cli/learn_report.hpp"
+#include "quoll/cli/solve_exact.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/report/export_map.hpp"
 #include "quoll/report/grid_text.hpp"
@@ -48,6 +49,7 @@ struct SolveOptions {
   OutputOption output;
   GivenSettings given;
   unsigned threads = 0;
+  bool exact = false;
 };
 
 /// An answer with what is needed to report it.
@@ -57,6 +59,7 @@ struct Solved {
   ExactSettings asked;
   Solution solution;
   double seconds = 0.0, seconds_load = 0.0;
+  std::optional<RationalSolution> exact{};
 
   Interval start() const { return start_value(mdp, solution.lower, solution.upper); }
 };
@@ -94,6 +97,7 @@ std::string solve_json(const Solved& solved, bool all) {
     for (const Action a : optimal.of(s)) json.value(mdp.action_name(mdp.choice_begin(s) + a));
     json.end_array().end_object();
   });
+  if (solved.exact) write_exact(json, mdp, *solved.exact, all);
   json.end_object();
   return json.text() + "\n";
 }
@@ -137,6 +141,7 @@ std::string tables(const Solved& solved, const TerminalStyle& style, bool all) {
     if (const auto grid = grid_policy_text(view, style)) return *grid + "\n";
   }
   const std::uint64_t shown = all ? mdp.states() : few_states;
+  if (solved.exact) return exact_table(mdp, *solved.exact, shown) + "\n";
   const OptimalActions optimal(mdp, solution, !solved.asked.minimise);
   const std::vector<std::uint8_t> flags = optimal.flags(shown);
   ValueTableView view;
@@ -279,7 +284,13 @@ Exit solve(const SolveOptions& options) {
   const double seconds = work.seconds();
   release_interrupts();
   if (!solution) return fail(solution.error());
-  const Solved solved{*world, *world->mdp, asked, std::move(*solution), seconds, seconds_load};
+  Solved solved{*world, *world->mdp, asked, std::move(*solution), seconds, seconds_load};
+  if (options.exact) {
+    auto exact = prove_exactly(solved.mdp, solved.solution, !asked.minimise, options.output.quiet);
+    if (!exact) return fail(exact.error());
+    solved.exact = std::move(*exact);
+    if (solved.exact) solved.solution.policy = solved.exact->policy;
+  }
   if (!options.output.file.empty()) {
     const Result<void> written = write_answer(solved, options.output.file, options.world.name);
     if (!written) return fail(written.error());
@@ -289,9 +300,11 @@ Exit solve(const SolveOptions& options) {
     text = solve_json(solved, options.output.all);
   } else {
     text = heading(solved) + tables(solved, stdout_style(), options.output.all) + verdict(solved);
+    if (solved.exact) text += exact_verdict(solved.mdp, *solved.exact);
   }
   if (!print(text)) return user_error;
-  return solved.solution.converged ? done : goal_missed;
+  const bool proved = !options.exact || solved.exact;
+  return proved && solved.solution.converged ? done : goal_missed;
 }
 
 }  // namespace
@@ -303,6 +316,8 @@ void declare_solve(Options& options) {
   given->given.declare_flags(options, settings_of(defaults));
   options.option("--threads", &given->threads, "N",
                  "processors to use; 0 = all; changes no result");
+  options.flag("--exact", &given->exact,
+               "value the policy in fractions and prove it optimal without rounding");
   given->output.declare(
       options,
       "also write the JSON object, complete; of a grid as NAME.csv x, y, move and cost, as "
