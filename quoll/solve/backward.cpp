@@ -35,7 +35,7 @@ Result<std::vector<State>> backward_order(const Mdp& mdp) {
     return Error{"--method", 0, 0,
                  "backward-induction needs a model in which no state comes again, but " +
                      mdp.state_name(again.front()) + " can",
-                 ""};
+                 mdp.alternating() ? "game-iteration" : ""};
   }
   const std::vector<std::uint32_t> component = strongly_connected(mdp);
   std::vector<State> order(mdp.states());

@@ -38,7 +38,8 @@ Result<Evaluation> evaluate_game(const Mdp& mdp, std::span<const double> choice_
                                  double discount);
 
 /// judge() for a model with two players: the policy's value in a state is what it is sure to get
-/// there, the other player replying as is worst for it. Regret = V* minus that.
+/// there, the other player replying as is worst for it. Regret = V* minus that. Below discount 1
+/// states may come again.
 Optimality judge_game(const Mdp& mdp, const Solution& exact, std::span<const Action> policy,
                       std::span<const State> from, double discount);
 

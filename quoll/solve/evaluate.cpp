@@ -8,6 +8,7 @@
 
 #include "quoll/model/graph.hpp"
 #include "quoll/solve/backward.hpp"
+#include "quoll/solve/both_sides.hpp"
 #include "quoll/solve/chain_elimination.hpp"
 #include "quoll/solve/functional_graph.hpp"
 #include "quoll/solve/induced.hpp"
@@ -58,6 +59,20 @@ Result<Evaluation> evaluate_discounted(const Mdp& mdp, std::span<const double> c
     if (!best) out.lower = std::move(solution->lower);
     if (best || !unknown) out.upper = std::move(solution->upper);
   }
+  return out;
+}
+
+// A game in which states come again: both players draw by the same probabilities.
+Result<Evaluation> evaluate_both_sides(const Mdp& mdp, std::span<const double> choice_probability,
+                                       const SolveSettings& settings) {
+  const Result<Mdp> sides = both_sides(mdp);
+  if (!sides) return sides.error();
+  std::vector<double> twice(choice_probability.begin(), choice_probability.end());
+  twice.insert(twice.end(), choice_probability.begin(), choice_probability.end());
+  Result<Evaluation> out = evaluate_discounted(*sides, twice, settings);
+  if (!out) return out;
+  out->lower.resize(mdp.states());
+  out->upper.resize(mdp.states());
   return out;
 }
 
@@ -186,7 +201,9 @@ Result<Evaluation> evaluate(const Mdp& mdp, std::span<const double> choice_proba
   settings.keep_going = keep_going;
   const Result<double> valid = discount_in_use(mdp, settings);
   if (!valid) return valid.error();
-  Result<Evaluation> out = mdp.alternating() ? evaluate_game(mdp, choice_probability, discount)
+  const bool returning = mdp.alternating() && discount < 1.0 && !returning_states(mdp).empty();
+  Result<Evaluation> out = returning ? evaluate_both_sides(mdp, choice_probability, settings)
+                           : mdp.alternating() ? evaluate_game(mdp, choice_probability, discount)
                            : discount == 1.0
                                ? evaluate_undiscounted(mdp, choice_probability, settings)
                                : evaluate_discounted(mdp, choice_probability, settings);

@@ -5,11 +5,16 @@
 #include "quoll/base/text.hpp"
 #include "quoll/model/graph.hpp"
 #include "quoll/solve/backward.hpp"
+#include "quoll/solve/both_sides.hpp"
+#include "quoll/solve/solver.hpp"
 
 // What a policy is sure to get in a game of two: its player keeps to it, the other replies best.
 //
 //   G(s) = r(s, pi(s)) - g E B(s')             the player of the policy to move
 //   B(s) = max_a  r(s,a) - g E G(s')           the other one to move
+//
+// From the ends on where no state comes again; else, below discount 1, as the other one's own
+// decision problem (both_sides.hpp).
 //
 // pi is optimal where G = V*: exactly if it takes a maximiser in every state.
 
@@ -39,6 +44,23 @@ Bounds sure_value(const Mdp& mdp, const std::vector<State>& order, std::span<con
       sure.lower[s] = std::min(sure.lower[s], q_lower(mdp, c, factor, reply));
       sure.upper[s] = std::max(sure.upper[s], q_upper(mdp, c, factor, reply));
     }
+  }
+  return sure;
+}
+
+// The same where states come again.
+Result<Bounds> sure_value(const Mdp& mdp, std::span<const Action> policy, double discount) {
+  const Result<Mdp> sides = both_sides(mdp, policy);
+  if (!sides) return sides.error();
+  SolveSettings settings;
+  settings.width = 1e-12;
+  settings.discount = discount;
+  const Result<Solution> replies = solve(*sides, settings);
+  if (!replies) return replies.error();
+  Bounds sure(mdp);
+  for (State s = 0; s < mdp.states(); ++s) {
+    sure.lower[s] = -replies->upper[mdp.states() + s] + 0.0;
+    sure.upper[s] = -replies->lower[mdp.states() + s] + 0.0;
   }
   return sure;
 }
@@ -104,15 +126,17 @@ Optimality judge_game(const Mdp& mdp, const Solution& exact, std::span<const Act
     }
   }
   const Result<std::vector<State>> order = backward_order(mdp);
-  if (!order) {
-    out.proof = message(order.error());
+  const Result<Bounds> sure = order            ? sure_value(mdp, *order, policy, discount)
+                              : discount < 1.0 ? sure_value(mdp, policy, discount)
+                                               : Result<Bounds>(order.error());
+  if (!sure) {
+    out.proof = message(sure.error());
     out.regret = infinity;
     return out;
   }
-  const Bounds sure = sure_value(mdp, *order, policy, discount);
   std::vector<Compared> compared;
   for (const State s : asked) {
-    const Compared one{exact.lower[s], exact.upper[s], sure.lower[s], sure.upper[s]};
+    const Compared one{exact.lower[s], exact.upper[s], sure->lower[s], sure->upper[s]};
     compared.push_back(one);
     const double loss = std::max(0.0, one.loss());
     if (loss > out.regret || s == asked.front()) {

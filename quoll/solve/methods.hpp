@@ -18,6 +18,7 @@ std::unique_ptr<Solver> make_wavefront();
 std::unique_ptr<Solver> make_policy_iteration();
 std::unique_ptr<Solver> make_label_setting();
 std::unique_ptr<Solver> make_backward_induction();
+std::unique_ptr<Solver> make_game_iteration();
 
 /// The discount in use: the settings' or the model's own. Error if outside (0, 1].
 Result<double> discount_in_use(const Mdp& mdp, const SolveSettings& settings);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "quoll/base/text.hpp"
+#include "quoll/model/graph.hpp"
 #include "quoll/solve/discounted.hpp"
 #include "quoll/solve/methods.hpp"
 
@@ -12,7 +13,7 @@ namespace quoll {
 
 namespace {
 
-constexpr std::array<SolverEntry, 7> registry{{
+constexpr std::array<SolverEntry, 8> registry{{
     {"value-iteration", "Bellman sweeps with MacQueen's bounds and action elimination",
      make_value_iteration},
     {"gauss-seidel", "sweeps in place, to and fro, from a lower bound; discounts below 1",
@@ -26,6 +27,8 @@ constexpr std::array<SolverEntry, 7> registry{{
     {"label-setting", "shortest paths; exact answers for deterministic models", make_label_setting},
     {"backward-induction", "from the ends on; models in which no state comes again, games of two",
      make_backward_induction},
+    {"game-iteration", "sweeps with Shapley's bound; games of two at discounts below 1",
+     make_game_iteration, true},
 }};
 
 // auto.
@@ -33,10 +36,13 @@ class ByStructure : public Solver {
  public:
   Result<Solution> solve(const Mdp& mdp, const SolveSettings& settings) override {
     if (!settings.maximise) return solve_minimised(*this, mdp, settings);
-    if (mdp.alternating()) return make_backward_induction()->solve(mdp, settings);
-    if (mdp.deterministic()) return make_label_setting()->solve(mdp, settings);
     const Result<double> discount = discount_in_use(mdp, settings);
     if (!discount) return discount.error();
+    if (mdp.alternating() && *discount < 1.0 && !returning_states(mdp).empty()) {
+      return make_game_iteration()->solve(mdp, settings);
+    }
+    if (mdp.alternating()) return make_backward_induction()->solve(mdp, settings);
+    if (mdp.deterministic()) return make_label_setting()->solve(mdp, settings);
     if (*discount == 1.0) return make_policy_iteration()->solve(mdp, settings);
     return solve_discounted(mdp, settings, *discount);
   }

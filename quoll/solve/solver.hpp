@@ -58,9 +58,10 @@ struct SolverEntry {
 std::span<const SolverEntry> solvers();
 
 /// Solves with the solver of that name. "auto" takes one by the model's structure: two players in
-/// turn -> backward-induction, deterministic -> label-setting, no discounting -> policy-iteration,
-/// else wavefront if the ends are far from some state, or modified-policy-iteration. Error: unknown
-/// name, and those of Solver::solve. Solution::method says which one ran.
+/// turn -> backward-induction, or game-iteration where states come again below discount 1;
+/// deterministic -> label-setting, no discounting -> policy-iteration, else wavefront if the ends
+/// are far from some state, or modified-policy-iteration. Error: unknown name, and those of
+/// Solver::solve. Solution::method says which one ran.
 Result<Solution> solve(const Mdp& mdp, const SolveSettings& settings = {},
                        std::string_view method = "auto");
 

@@ -82,7 +82,7 @@ TEST(Backward, MethodsOfOnePlayerRefuse) {
 }
 
 TEST(Backward, AStateThatComesAgainIsRefusedByName) {
-  MdpBuilder b = small_game(0.5);
+  MdpBuilder b = small_game(1.0);
   b.move("Y", "back", "ROOT");
   const Mdp mdp = test::built(b);
   const auto found = solve(mdp);
