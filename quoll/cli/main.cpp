@@ -14,6 +14,8 @@
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
 #include "quoll/cli/faces.hpp"
+#include "quoll/cli/opponent_file.hpp"
+#include "quoll/env/policy_reader.hpp"
 
 namespace quoll::cli {
 namespace {
@@ -184,6 +186,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   // A file beyond the size limit is then a failed write, with its line, and not the end.
   std::signal(SIGXFSZ, SIG_IGN);
+  quoll::set_policy_reader(quoll::cli::opponent_text);
   try {
     return quoll::cli::run(argc, argv);
   } catch (const std::bad_alloc&) {

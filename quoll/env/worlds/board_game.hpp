@@ -9,6 +9,7 @@
 //     Outcome outcome(const Board&) const;                 // of a board that play() gave
 //     Side to_move(const Board&) const;
 //     std::string cells(const Board&) const;               // "X.O/.X./..O", the top row first
+//     std::optional<Board> parse(std::string_view cells) const;   // nothing: no board of the game
 //     std::vector<std::string> move_names() const;
 //     bool legal(const Board&, std::uint32_t move) const;  // of a running game
 //     Board play(const Board&, std::uint32_t move) const;

@@ -3,17 +3,18 @@
 // column, "a" to "g".
 //
 // opponent=self: the learner plays both sides; a step is one move and passes the turn, and values
-// and observations are those of the player to move. Whoever connects earns 1. opponent=uniform: the
-// learner has the side `mark`, a random answer in an open column is part of the step, and reward -1
-// when that wins. A draw earns 0. A stone into a full column loses at once, reward -1.
+// and observations are those of the player to move. Whoever connects earns 1. opponent=uniform or a
+// file: the learner has the side `mark`, the answer is part of the step, and reward -1 when that
+// wins. uniform answers in any open column; a file is a policy with the names of this world, as
+// `play --policy` takes it; where it says nothing unknown=uniform takes any open column. A draw
+// earns 0. A stone into a full column loses at once, reward -1.
 //
 // Observation {rows, columns, 2}, the top row first: 1 where a stone of the player to move lies,
 // then 1 where one of the other lies. JSON state: {"board": "......./.../... x"}: the cells, the
 // top row first, and whose turn it is or how the game ended ("X won", "O won", "drawn").
 //
-// Draws: a start takes none, with opponent=uniform and mark=o one (below the number of columns); a
-// step with opponent=uniform takes one, below the number of open columns, if the game goes on after
-// the learner's move.
+// Draws: where the opponent moves by chance one, below the number of open columns: at the start
+// with mark=o, and in a step if the game goes on after the learner's move; else none.
 //
 // Boards of at most 16 cells are compiled to a model, whose states are named like the JSON state
 // and whose actions are the open columns; a start and a step then take one number each.
@@ -30,31 +31,30 @@
 
 #include "quoll/env/dynamics.hpp"
 
+#include "quoll/env/worlds/board_opponent.hpp"
+
 namespace quoll {
 namespace {
 
+using board::Opponent;
 using board::Outcome;
 using board::Reply;
 using board::Side;
 
 constexpr std::uint64_t most_compiled = 16;  // cells
 
-enum class Opponent : std::uint8_t { self, uniform };
-constexpr std::string_view opponent_names[] = {"self", "uniform"};
+using Saved = board::SavedMoves<ConnectFour>;
 
-struct ConnectFourSettings {
+struct ConnectFourSettings : board::OpponentSettings {
   std::uint64_t rows = 6, columns = 7, connect = 4;
-  Opponent opponent = Opponent::self;
-  Side mark = Side::x;
   double discount = 1.0;
 
   void describe(Describer& describe) {
     describe("rows", rows, 2, 8, "cells of a column");
     describe("columns", columns, 2, 10, "columns; rows + 1 times columns is at most 64");
     describe("connect", connect, 2, 10, "stones in a row that win");
-    describe.choice("opponent", opponent, opponent_names, "who has the other side");
-    describe.choice("mark", mark, board::side_names,
-                    "the learner's side against an opponent; x begins");
+    board::OpponentSettings::describe(
+        describe, "self, uniform, or a file .csv, .json or .quoll with a policy of such boards");
     describe("discount", discount, std::numeric_limits<double>::denorm_min(), 1.0,
              "the reward's factor per step");
   }
@@ -68,6 +68,7 @@ struct ConnectFourWorld {
   ConnectFour game;
   Opponent opponent = Opponent::self;
   Side mark = Side::x;
+  std::shared_ptr<const Saved> saved = nullptr;  // with an opponent from a file
 
   Spaces spaces() const {
     const auto rows = static_cast<std::uint32_t>(game.rows);
@@ -76,9 +77,7 @@ struct ConnectFourWorld {
   }
   Position start(auto& dice) const {
     Position at{game, game.begin(), Outcome::running};
-    if (opponent == Opponent::uniform && mark == Side::o) {
-      at.stones = game.play(at.stones, dice.below(static_cast<std::uint32_t>(game.columns)));
-    }
+    if (opponent != Opponent::self && mark == Side::o) put(at, answer(at.stones, dice));
     return at;
   }
   Feedback step(Position& at, Action action, auto& dice) const {
@@ -89,11 +88,8 @@ struct ConnectFourWorld {
       return {-1.0, true, false, false};
     }
     put(at, action);
-    if (at.outcome == Outcome::running && opponent == Opponent::uniform) {
-      std::uint32_t open = dice.below(game.open(at.stones));
-      std::uint32_t column = 0;
-      while (!game.legal(at.stones, column) || open-- > 0) ++column;
-      put(at, column);
+    if (at.outcome == Outcome::running && opponent != Opponent::self) {
+      put(at, answer(at.stones, dice));
     }
     const bool over = at.outcome != Outcome::running;
     const double reward = at.outcome == board::won_by(own)                 ? 1.0
@@ -111,6 +107,16 @@ struct ConnectFourWorld {
   }
 
  private:
+  // The opponent's column: as the file says, else any open one.
+  std::uint32_t answer(const ConnectFour::Board& at, auto& dice) const {
+    if (saved) {
+      if (const std::optional<std::uint32_t> said = saved->move(at)) return *said;
+    }
+    std::uint32_t open = dice.below(game.open(at));
+    std::uint32_t column = 0;
+    while (!game.legal(at, column) || open-- > 0) ++column;
+    return column;
+  }
   void put(Position& at, std::uint32_t column) const {
     at.stones = game.play(at.stones, column);
     at.outcome = game.outcome(at.stones);
@@ -141,16 +147,32 @@ Looks looks_of(const ConnectFour& game, std::vector<ConnectFour::Board> boards) 
   return looks;
 }
 
-Result<World> compiled(const ConnectFour& game, const ConnectFourSettings& settings) {
+Result<board::Compiled<ConnectFour>> compile(const ConnectFour& game,
+                                             const ConnectFourSettings& settings, Opponent opponent,
+                                             const Saved* saved) {
   board::Compiler compiler(game, settings.discount);
-  Result<board::Compiled<ConnectFour>> model =
-      settings.opponent == Opponent::self
-          ? compiler.self_play()
-          : compiler.against(settings.mark, [&](const ConnectFour::Board& at) {
-              return Result<Reply>(board::uniform_reply(game, at));
-            });
-  if (!model) return model.error();
-  return to_world("connect-four", std::move(model->mdp), looks_of(game, std::move(model->boards)));
+  if (opponent == Opponent::self) return compiler.self_play();
+  return compiler.against(settings.mark, [&](const ConnectFour::Board& at) {
+    return saved ? saved->reply(at) : Result<Reply>(board::uniform_reply(game, at));
+  });
+}
+
+// Boards without a model: what the opponent does must be known in every position.
+Result<World> played(const ConnectFour& game, const ConnectFourSettings& settings,
+                     Opponent opponent, std::shared_ptr<const Saved> saved) {
+  if (saved && settings.unknown != board::Unknown::uniform) {
+    return Error{"--with unknown", 0, 0,
+                 "uniform expected: no file says what to do on every board of " +
+                     std::to_string(settings.rows * settings.columns) + " cells",
+                 ""};
+  }
+  WorldFacts facts;
+  facts.discount = settings.discount;
+  facts.traits.deterministic = opponent == Opponent::self;
+  facts.traits.players = opponent == Opponent::self ? 2 : 1;
+  facts.traits.reward_bounds = {-1.0, 1.0};
+  return to_world("connect-four", ConnectFourWorld{game, opponent, settings.mark, std::move(saved)},
+                  facts);
 }
 
 Result<World> make(const Parameters& parameters) {
@@ -164,25 +186,32 @@ Result<World> make(const Parameters& parameters) {
                      std::to_string(settings->columns),
                  ""};
   }
+  const Result<Opponent> opponent = settings->kind(false);
+  if (!opponent) return opponent.error();
   const ConnectFour game{settings->rows, settings->columns, settings->connect};
-  if (settings->rows * settings->columns <= most_compiled) return compiled(game, *settings);
-  WorldFacts facts;
-  facts.discount = settings->discount;
-  facts.traits.deterministic = settings->opponent == Opponent::self;
-  facts.traits.players = settings->opponent == Opponent::self ? 2 : 1;
-  facts.traits.reward_bounds = {-1.0, 1.0};
-  return to_world("connect-four", ConnectFourWorld{game, settings->opponent, settings->mark},
-                  facts);
+  std::shared_ptr<const Saved> saved;
+  if (*opponent == Opponent::file) {
+    Result<Saved> read = Saved::read(game, "connect-four", *settings);
+    if (!read) return read.error();
+    saved = std::make_shared<const Saved>(std::move(*read));
+  }
+  if (settings->rows * settings->columns > most_compiled) {
+    return played(game, *settings, *opponent, std::move(saved));
+  }
+  Result<board::Compiled<ConnectFour>> model = compile(game, *settings, *opponent, saved.get());
+  if (!model) return model.error();
+  return to_world("connect-four", std::move(model->mdp), looks_of(game, std::move(model->boards)));
 }
 
 }  // namespace
 
 extern const WorldEntry connect_four_world;
-const WorldEntry connect_four_world{"connect-four",
-                                    "",
-                                    "four in a row of falling stones, against oneself or at random",
-                                    "the rules; Allis 1988 proves that the first player wins",
-                                    make,
-                                    parameters_of<ConnectFourSettings>};
+const WorldEntry connect_four_world{
+    "connect-four",
+    "",
+    "four in a row of falling stones, against oneself or an opponent",
+    "the rules; Allis 1988 proves that the first player wins",
+    make,
+    parameters_of<ConnectFourSettings>};
 
 }  // namespace quoll

@@ -7,16 +7,15 @@
 // opponent=uniform, perfect or a file: the learner has the side `mark`, and the answer is part of
 // the step, with reward -1 when it wins. uniform: any free cell, equally likely. perfect: a move of
 // the greatest game value, the first in the order of the actions (a3, b3, c3, a2, ... c1). A file
-// is a policy in CSV, "state,action" with the names of this world, as `export` writes it; it must
-// have an action wherever it can come to move.
+// is a policy with the names of this world, as `play --policy` takes it; it must have an action
+// wherever it can come to move, or unknown=uniform takes any free cell there.
 //
-// Draws: a start takes one number; a step takes one, used by opponent=uniform alone. JSON state:
-// the position's name.
+// Draws: a start takes one number; a step takes one, used where the opponent moves by chance. JSON
+// state: the position's name.
 //
 // Source: the rules. Sutton, Barto 2018, section 1.5 (learning to play it); Zermelo 1913.
 
 #include <bit>
-#include <charconv>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -25,17 +24,15 @@
 #include <utility>
 #include <vector>
 
-#include "quoll/base/file.hpp"
-#include "quoll/base/text.hpp"
 #include "quoll/env/world.hpp"
-#include "quoll/model/formats/fields.hpp"
-#include "quoll/model/formats/lines.hpp"
 
 #include "quoll/env/worlds/board_game.hpp"
+#include "quoll/env/worlds/board_opponent.hpp"
 
 namespace quoll {
 namespace {
 
+using board::Opponent;
 using board::Outcome;
 using board::Reply;
 using board::Side;
@@ -69,6 +66,20 @@ struct TicTacToe {
       text += at.x >> i & 1u ? 'X' : at.o >> i & 1u ? 'O' : '.';
     }
     return text;
+  }
+  std::optional<Board> parse(std::string_view cells) const {
+    if (cells.size() != 11 || cells[3] != '/' || cells[7] != '/') return std::nullopt;
+    Board at;
+    for (std::uint32_t i = 0; i < 9; ++i) {
+      const char cell = cells[i + i / 3];
+      if (cell != 'X' && cell != 'O' && cell != '.') return std::nullopt;
+      if (cell == 'X') at.x |= 1u << i;
+      if (cell == 'O') at.o |= 1u << i;
+    }
+    const int more = std::popcount(at.x) - std::popcount(at.o);
+    const bool x_row = has_row(at.x), o_row = has_row(at.o);  // made by the last move
+    const bool possible = more == 0 ? !x_row : more == 1 && !o_row;
+    return possible ? std::optional<Board>(at) : std::nullopt;
   }
   std::vector<std::string> move_names() const {
     return {"a3", "b3", "c3", "a2", "b2", "c2", "a1", "b1", "c1"};
@@ -110,95 +121,12 @@ class GameTree {
   std::unordered_map<std::uint64_t, int> known_;  // only looked up
 };
 
-// The moves of a policy file, by key of the board.
-class PolicyFile {
- public:
-  static Result<PolicyFile> read(const std::string& path) {
-    PolicyFile policy(path);
-    Result<std::string> content = read_file(path);
-    if (!content) return content.error();
-    Lines lines(*content);
-    std::string_view line;
-    bool header = true;
-    const std::unordered_map<std::string, TicTacToe::Board> boards = all_boards();
-    while (lines.next(line)) {
-      if (trim(line).empty() || line.front() == '#') continue;
-      Fields fields;
-      const auto refuse = [&](std::string expected) {
-        return Error{path, lines.number(), 0, std::move(expected), ""};
-      };
-      if (fields.split(line) || fields.count != 2) return refuse("state,action expected");
-      if (std::exchange(header, false)) {
-        if (fields.text[0] == "state" && fields.text[1] == "action") continue;
-        return refuse("the header state,action expected");
-      }
-      const auto board = boards.find(std::string(fields.text[0]));
-      if (board == boards.end()) {
-        return refuse("a position of tic-tac-toe expected, not '" + std::string(fields.text[0]) +
-                      "'");
-      }
-      const std::optional<std::uint32_t> move = find_move(board->second, fields.text[1]);
-      if (!move) {
-        return refuse("a free cell of " + board->first + " expected, not '" +
-                      std::string(fields.text[1]) + "'");
-      }
-      policy.moves_[TicTacToe().key(board->second)] = *move;
-    }
-    return policy;
-  }
-
-  Result<Reply> reply(TicTacToe::Board at) const {
-    const auto found = moves_.find(TicTacToe().key(at));
-    if (found != moves_.end()) return Reply{{found->second, 1.0}};
-    return Error{path_, 0, 0, "no action for state " + board::name_of(TicTacToe(), at), ""};
-  }
-
- private:
-  explicit PolicyFile(std::string path) : path_(std::move(path)) {}
-
-  static std::unordered_map<std::string, TicTacToe::Board> all_boards() {
-    const TicTacToe game;
-    std::unordered_map<std::string, TicTacToe::Board> boards;  // only looked up
-    std::vector<TicTacToe::Board> open{game.begin()};
-    for (std::size_t i = 0; i < open.size(); ++i) {
-      const TicTacToe::Board at = open[i];
-      if (game.outcome(at) != Outcome::running) continue;
-      if (!boards.emplace(board::name_of(game, at), at).second) continue;
-      for (std::uint32_t move = 0; move < 9; ++move) {
-        if (game.legal(at, move)) open.push_back(game.play(at, move));
-      }
-    }
-    return boards;
-  }
-  // By name, or by number among the free cells.
-  static std::optional<std::uint32_t> find_move(TicTacToe::Board at, std::string_view word) {
-    const TicTacToe game;
-    const std::vector<std::string> names = game.move_names();
-    std::uint32_t number = 0, count = 0;
-    const auto read = std::from_chars(word.data(), word.data() + word.size(), number);
-    const bool numeric = read.ec == std::errc() && read.ptr == word.data() + word.size();
-    for (std::uint32_t move = 0; move < 9; ++move) {
-      if (!game.legal(at, move)) continue;
-      if (names[move] == word || (numeric && count == number)) return move;
-      ++count;
-    }
-    return std::nullopt;
-  }
-
-  std::string path_;
-  std::unordered_map<std::uint64_t, std::uint32_t> moves_;  // only looked up
-};
-
-struct TicTacToeSettings {
-  std::string opponent = "self";
-  Side mark = Side::x;
+struct TicTacToeSettings : board::OpponentSettings {
   double discount = 1.0;
 
   void describe(Describer& describe) {
-    describe("opponent", opponent,
-             "self, uniform, perfect, or a file .csv with a policy of this world");
-    describe.choice("mark", mark, board::side_names,
-                    "the learner's side against an opponent; x begins");
+    board::OpponentSettings::describe(
+        describe, "self, uniform, perfect, or a file .csv, .json or .quoll with a policy");
     describe("discount", discount, std::numeric_limits<double>::denorm_min(), 1.0,
              "the reward's factor per step");
   }
@@ -212,26 +140,22 @@ using Model = board::Compiled<TicTacToe>;
 Result<Model> compile(const TicTacToeSettings& settings) {
   const TicTacToe game;
   board::Compiler compiler(game, settings.discount);
-  if (settings.opponent == "self") return compiler.self_play();
-  if (settings.opponent == "uniform") {
+  const Result<Opponent> kind = settings.kind(true);
+  if (!kind) return kind.error();
+  if (*kind == Opponent::self) return compiler.self_play();
+  if (*kind == Opponent::uniform) {
     return compiler.against(settings.mark, [&](TicTacToe::Board at) {
       return Result<Reply>(board::uniform_reply(game, at));
     });
   }
-  if (settings.opponent == "perfect") {
+  if (*kind == Opponent::perfect) {
     GameTree tree;
     return compiler.against(settings.mark,
                             [&](TicTacToe::Board at) { return Result<Reply>(tree.best(at)); });
   }
-  if (!settings.opponent.ends_with(".csv")) {
-    const std::vector<std::string> names{"self", "uniform", "perfect"};
-    return Error{"--with opponent", 0, 0,
-                 "self, uniform, perfect or a file .csv expected, not '" + settings.opponent + "'",
-                 nearest(settings.opponent, names)};
-  }
-  const Result<PolicyFile> file = PolicyFile::read(settings.opponent);
-  if (!file) return file.error();
-  return compiler.against(settings.mark, [&](TicTacToe::Board at) { return file->reply(at); });
+  const auto saved = board::SavedMoves<TicTacToe>::read(game, "tic-tac-toe", settings);
+  if (!saved) return saved.error();
+  return compiler.against(settings.mark, [&](TicTacToe::Board at) { return saved->reply(at); });
 }
 
 Result<World> make(const Parameters& parameters) {

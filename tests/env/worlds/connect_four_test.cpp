@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -31,9 +35,18 @@ struct Table {
   Result<void> put(const std::string& text) {
     return environment->inspector()->set(0, board(text), state);
   }
+  std::string begin() {
+    const std::uint8_t restart = 1;
+    Experience now{{&state, 1}, {}, {}, {}, observation, {}};
+    environment->restart({&restart, 1}, now);
+    return shown();
+  }
   std::string step(Action action) {
     Experience now{{&state, 1}, {&action, 1}, {&feedback, 1}, {&next, 1}, observation, after};
     environment->step(now);
+    return shown();
+  }
+  std::string shown() const {
     return std::get<std::string>(environment->inspector()->state(0, 0).find("board")->value);
   }
 };
@@ -150,6 +163,41 @@ TEST(ConnectFour, ARandomPlayerAnswers) {
   Experience now{{&state, 1}, {}, {}, {}, observation, {}};
   environment->restart({&restart, 1}, now);
   EXPECT_EQ(std::count(observation.begin(), observation.end(), 1.0f), 1);
+}
+
+TEST(ConnectFour, APolicyFromAFileAnswers) {
+  const std::string path =
+      testing::TempDir() + "connect_four_policy-" + std::to_string(getpid()) + ".csv";
+  std::ofstream(path) << "state,action\n" + empty_rows + "......./......./...X... o,d\n" +
+                             empty_rows + "......./......./....... x,g\n";
+  const World world = game({{"opponent", path}, {"unknown", "uniform"}});
+  EXPECT_EQ(world.traits.players, 1u);
+  const auto draws = std::make_shared<const std::vector<double>>(std::vector<double>{6.0});
+  Table table(world);
+  table.environment = world.make({1, 1, 0, draws});
+  ASSERT_TRUE(table.put(empty_rows + "......./......./....... x"));
+  EXPECT_EQ(table.step(3), empty_rows + "......./...O.../...X... x");  // takes no draw
+  EXPECT_EQ(table.step(0), empty_rows + "......./...O.../X..X..O x");  // not in the file
+  Table second(game({{"opponent", path}, {"unknown", "uniform"}, {"mark", "o"}}));
+  EXPECT_EQ(second.begin(), empty_rows + "......./......./......X o");
+  EXPECT_EQ(refused("connect-four", {{"opponent", path}}).file, "--with unknown");
+  // Of another board: the file's cells do not fit.
+  EXPECT_EQ(message(refused("connect-four", {{"opponent", path}, {"rows", "4"}, {"columns", "4"}})),
+            path + ":2: a position of connect-four expected, not '" + empty_rows +
+                "......./......./...X... o'");
+  std::ofstream(path) << "state,action\n..../..../..../.X.. o,c\n";
+  const Parameters small{{"opponent", path},
+                         {"rows", "4"},
+                         {"columns", "4"},
+                         {"connect", "3"},
+                         {"unknown", "uniform"}};
+  const World four = game(small);
+  ASSERT_TRUE(four.mdp);
+  EXPECT_EQ(led(*four.mdp, "..../..../..../.... x", "b").to, "..../..../..../.XO. x");
+  EXPECT_EQ(probability(*four.mdp, "..../..../..../.... x", "a", "..../..../O.../X... x"), 0.25);
+  std::remove(path.c_str());
+  EXPECT_EQ(refused("connect-four", {{"opponent", "perfect"}}).expected,
+            "self, uniform or a file .csv, .json or .quoll expected, not 'perfect'");
 }
 
 // 161,029 positions of 4 x 4 with four in a row: OEIS A212693.

@@ -144,11 +144,22 @@ TEST(TicTacToe, AgainstAPolicyFromAFile) {
   EXPECT_EQ(second->mdp->state_name(second->mdp->start()[0]), "X../.../... o");
   const auto refusal = [&](const std::string& text) { return message(with(text, "x").error()); };
   EXPECT_EQ(refusal("state,action\n.../.X./... o,a3\n"),
-            path + ": no action for state X../.../... o");
+            path +
+                ": no action for state X../.../... o; "
+                "--with unknown=uniform takes any there");
+  // O knows one board only, and takes any free cell on the others.
+  std::ofstream(path) << "state,action\n.../.X./... o,a3\n";
+  const World half = game({{"opponent", path}, {"unknown", "uniform"}});
+  EXPECT_EQ(led(*half.mdp, ".../.../... x", "b2").to, "O../.X./... x");
+  EXPECT_EQ(probability(*half.mdp, ".../.../... x", "a3", "X.O/.../... x"), 0.125);
   EXPECT_EQ(refusal("state,action\n.../.X./... o,b2\n"),
-            path + ":2: a free cell of .../.X./... o expected, not 'b2'");
+            path + ":2: a legal move of .../.X./... o expected, not 'b2'");
   EXPECT_EQ(refusal("state,action\nHALL,b2\n"),
             path + ":2: a position of tic-tac-toe expected, not 'HALL'");
+  EXPECT_EQ(refusal("state,action\nXXX/XXX/XXX x,b2\n"),
+            path + ":2: a position of tic-tac-toe expected, not 'XXX/XXX/XXX x'");
+  EXPECT_EQ(message(find_world("tic-tac-toe", {{"opponent", "any.quoll"}}).error()),
+            "any.quoll: a file .csv expected: this program reads no other policies");
   EXPECT_EQ(refusal("a,b\n"), path + ":1: the header state,action expected");
   std::remove(path.c_str());
   EXPECT_EQ(refused("tic-tac-toe", {{"opponent", "perfct"}}).nearest, "perfect");

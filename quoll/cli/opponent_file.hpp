@@ -1,0 +1,15 @@
+#pragma once
+// A saved policy as an opponent: what the worlds' own reader of .csv cannot read.
+
+#include <string>
+#include <string_view>
+
+#include "quoll/base/error.hpp"
+
+namespace quoll::cli {
+
+/// A PolicyReader (env/policy_reader.hpp) for .json, as learn, solve and export write it, and for
+/// .quoll, a saved run: greedy among the actions its first seed visited.
+Result<std::string> opponent_text(const std::string& path, std::string_view world);
+
+}  // namespace quoll::cli
