@@ -48,10 +48,11 @@ Result<const std::string_view*> file_of(const Files& files, const std::string& n
 Result<std::vector<std::uint64_t>> offsets(const Files& files, const std::string& name,
                                            std::uint64_t from, std::uint64_t to);
 
-/// Doubles, or fractions of 64-bit integers (both parts rounded to double);
-/// empty if the file is absent.
-Result<std::vector<double>> numbers(const Files& files, const std::string& name, const Type& type,
-                                    std::uint64_t count);
+/// Appends doubles, or fractions of 64-bit integers (both parts rounded to double), to a vector or
+/// Column; nothing if the file is absent.
+template <class List>
+Result<void> numbers(const Files& files, const std::string& name, const Type& type,
+                     std::uint64_t count, List& list);
 
 /// The indices below `states` whose bits are set, as annotations of type bool keep them.
 Result<std::vector<State>> set_bits(std::string_view file, std::uint64_t states);

@@ -51,8 +51,9 @@ Result<std::vector<std::uint64_t>> offsets(const Files& files, const std::string
   return error(name + ": numbers that ascend from 0 to " + std::to_string(to) + " expected");
 }
 
-Result<std::vector<double>> numbers(const Files& files, const std::string& name, const Type& type,
-                                    std::uint64_t count) {
+template <class List>
+Result<void> numbers(const Files& files, const std::string& name, const Type& type,
+                     std::uint64_t count, List& list) {
   const bool rational = type.name == "rational" && type.bits == 128;
   if (!rational && (type.name != "double" || type.bits != 64)) {
     return error(name + ": type double, or rational of 128 bits, expected, found " + type.name +
@@ -60,24 +61,29 @@ Result<std::vector<double>> numbers(const Files& files, const std::string& name,
   }
   const auto file = file_of(files, name, count * type.bits / 8);
   if (!file) return file.error();
-  std::vector<double> list;
-  if (!*file) return list;
-  list.resize(count);
+  if (!*file) return {};
+  list.reserve(count);
   const char* const bytes = (*file)->data();
   if (!rational) {
     for (std::uint64_t i = 0; i < count; ++i) {
-      list[i] = std::bit_cast<double>(load_little<std::uint64_t>(bytes + 8 * i));
+      list.push_back(std::bit_cast<double>(load_little<std::uint64_t>(bytes + 8 * i)));
     }
-    return list;
+    return {};
   }
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto over = load_little<std::uint64_t>(bytes + 16 * i);
     const auto under = load_little<std::uint64_t>(bytes + 16 * i + 8);
     if (under == 0) return error(name + ": fraction " + std::to_string(i) + " over 0");
-    list[i] = static_cast<double>(static_cast<std::int64_t>(over)) / static_cast<double>(under);
+    list.push_back(static_cast<double>(static_cast<std::int64_t>(over)) /
+                   static_cast<double>(under));
   }
-  return list;
+  return {};
 }
+
+template Result<void> numbers(const Files&, const std::string&, const Type&, std::uint64_t,
+                              std::vector<double>&);
+template Result<void> numbers(const Files&, const std::string&, const Type&, std::uint64_t,
+                              Column&);
 
 Result<std::vector<State>> set_bits(std::string_view file, std::uint64_t states) {
   if (file.size() != (states + 63) / 64 * 8) {

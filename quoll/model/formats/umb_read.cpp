@@ -59,6 +59,11 @@ class UmbReader {
     return true;
   }
 
+  bool done(const Result<void>& result) {
+    if (!result) error_ = result.error();
+    return static_cast<bool>(result);
+  }
+
   bool open();
   bool count(const char* key, std::uint64_t most, std::uint64_t& value);
   bool counts();
@@ -185,7 +190,7 @@ bool UmbReader::probabilities() {
   if (!taken(umb::type_of(given), type)) return false;
   const std::string name = "branch-to-probability.bin";
   if (!umb::find(files_, name) && branches_ > 0) return fail(name + ": missing");
-  return taken(umb::numbers(files_, name, type, branches_), a_.probability);
+  return done(umb::numbers(files_, name, type, branches_, a_.probability));
 }
 
 bool UmbReader::starts() {
@@ -240,7 +245,7 @@ bool UmbReader::reward_structure(const std::string& id, const Tree& annotation,
   if (annotation.find("probability-type")) return fail(folder + ": rewards by chance not known");
   std::vector<double> by_state;
   const auto values = [&](const char* of, std::uint64_t count, std::vector<double>& to) {
-    return taken(umb::numbers(files_, folder + of + "/values.bin", type, count), to);
+    return done(umb::numbers(files_, folder + of + "/values.bin", type, count, to));
   };
   if (!values("states", states_, by_state) || !values("choices", choices_, into.reward) ||
       !values("branches", branches_, into.outcome_reward)) {
@@ -333,8 +338,7 @@ bool UmbReader::names() {
   const Tree* const tool = umb::at(index_, {"file-data", "tool"});
   const Tree* const own = umb::at(index_, {"file-data", "parameters"});
   if (!tool || tool->value != Tree(std::string("Quoll")).value || !own) return true;
-  const Result<void> done = umb::read_own(*own, files_, a_);
-  return done ? true : fail(done.error().expected);
+  return done(umb::read_own(*own, files_, a_));
 }
 
 }  // namespace
