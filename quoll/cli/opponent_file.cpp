@@ -5,7 +5,7 @@
 #include "quoll/experiment/run.hpp"
 #include "quoll/model/formats/fields.hpp"
 #include "quoll/report/export_policy.hpp"
-#include "quoll/report/json_tree.hpp"
+#include "quoll/base/json_tree.hpp"
 
 namespace quoll::cli {
 namespace {

@@ -11,7 +11,7 @@
 #include "quoll/base/text.hpp"
 #include "quoll/cli/policy_file.hpp"
 #include "quoll/model/formats/mentions.hpp"
-#include "quoll/report/json_tree.hpp"
+#include "quoll/base/json_tree.hpp"
 
 namespace quoll::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "quoll/base/error.hpp"
 #include "quoll/model/mdp.hpp"
 #include "quoll/model/solution.hpp"
-#include "quoll/report/json.hpp"
+#include "quoll/base/json.hpp"
 #include "quoll/solve/rational_solver.hpp"
 
 namespace quoll::cli {

@@ -125,12 +125,14 @@ class Prover {
       moves_[s] = most;
       return change;
     };
-    return free_.count == 0 ? count_along_wave(raise) : count_to_and_fro(raise);
+    if (free_.count == 0 && !count_along_wave(raise)) return false;
+    return count_to_and_fro(raise);
   }
 
   static constexpr double settled = 0.25;  // moves a sweep may still add
   static constexpr double most_moves = 1e9;
 
+  // Nearly all of the way; bands it has left behind may still rise a little.
   template <class Raise>
   bool count_along_wave(const Raise& raise) {
     constexpr std::uint64_t most_updates_of_each = 200'000;

@@ -83,20 +83,22 @@ TEST(Tree, WhatDoesNotFitIsNamed) {
     return done ? "read" : done.error().expected;
   };
   EXPECT_EQ(reason([](auto& o) { o.pop_back(); }), "name: expected, but missing");
-  EXPECT_EQ(reason([](auto& o) { o.emplace_back("more", Tree(true)); }), "no further field expected");
+  EXPECT_EQ(reason([](auto& o) { o.emplace_back("more", Tree(true)); }),
+            "no further field expected");
   EXPECT_EQ(reason([](auto& o) { o[0].second = Tree(std::int64_t{2}); }),
             "flag: true or false expected");
   EXPECT_EQ(reason([](auto& o) { o[1].second = Tree(std::int64_t{128}); }),
             "small: a whole number from -128 to 127 expected");
   EXPECT_EQ(reason([](auto& o) { o[1].second = Tree(std::int64_t{101}); }), "small is too large");
   EXPECT_EQ(reason([](auto& o) { o[3].second = Tree(Tree::List{Tree(1.0)}); }),
-            "pair: a list of 2");
+            "pair: a list of 2 expected");
   EXPECT_EQ(reason([](auto& o) {
               std::get<Tree::Object>(std::get<Tree::List>(o[4].second.value)[1].value)[0].second =
                   Tree(std::numeric_limits<double>::infinity());
             }),
             "inner[1].x: a finite number expected");
-  EXPECT_EQ(reason([](auto& o) { o[4].second = Tree(std::string("x")); }), "inner: a list");
+  EXPECT_EQ(reason([](auto& o) { o[4].second = Tree(std::string("x")); }),
+            "inner: a list expected");
   EXPECT_EQ(reason([](auto& o) { o[5].second = Tree(); }), "name: a text expected");
 }
 

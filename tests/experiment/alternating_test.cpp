@@ -96,11 +96,10 @@ TEST(Alternating, FilesKeepTheFlag) {
   for (const Format& format : formats()) {
     if (format.write == nullptr) continue;
     const auto text = format.write(*world.mdp);
-    if (format.name == "grid") {
-      EXPECT_FALSE(text);
-      continue;
-    }
-    ASSERT_TRUE(text) << message(text.error());
+    const bool ours = format.name == "toml" || format.name == "csv" ||
+                      format.name == "umb" || format.name == "gymnasium";
+    EXPECT_EQ(static_cast<bool>(text), ours) << format.name;
+    if (!text) continue;  // others know one player only, and say so
     const auto again = parse_model(*text, "nim" + std::string(format.extension));
     ASSERT_TRUE(again) << message(again.error());
     EXPECT_TRUE(again->alternating());

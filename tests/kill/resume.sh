@@ -76,7 +76,7 @@ refused letter.txt "kept" --save letter.txt
 refused good.quoll "0.1, not 0.5" --resume good.quoll --epsilon 0.5
 refused good.quoll "1, not 2" --resume good.quoll --seed 2
 refused good.quoll "uniform, not greedy" --resume good.quoll --explore greedy
-refused good.quoll "none, not size=3" --resume good.quoll --with size=3
+refused good.quoll "takes no parameters, not 'size'" --resume good.quoll --with size=3
 cp adventure.toml kept.toml
 sed 's/100/101/' kept.toml >adventure.toml
 refused good.quoll "has changed" --resume good.quoll

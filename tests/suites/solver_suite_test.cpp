@@ -251,6 +251,7 @@ TEST(SolverSuite, ASolveStoppedAtOnceIsNoWiderThanTheRewardsAllow) {
   ASSERT_TRUE(mdp);
   for (const SolverEntry& entry : solvers()) {
     if (!entry.needs_discount && entry.name != "value-iteration") continue;
+    if (entry.name == "game-iteration") continue;  // rewards of a game count with both signs
     SCOPED_TRACE(entry.name);
     SolveSettings settings;
     settings.keep_going = [](const SolveProgress&) { return false; };

@@ -36,6 +36,11 @@ struct OpponentSettings {
     describe.choice("unknown", unknown, unknown_names,
                     "what an opponent from a file does where the file says nothing");
   }
+  /// What a parameter has no effect without.
+  std::string_view needs(std::string_view name) const {
+    if (name == "mark" && opponent == "self") return "an opponent";
+    return name == "unknown" && !from_file() ? "an opponent from a file" : "";
+  }
   bool from_file() const { return names_a_policy(opponent); }
 
   /// Error: a word that is none of those, with the nearest.

@@ -58,9 +58,6 @@ struct ConnectFourSettings : board::OpponentSettings {
     describe("discount", discount, std::numeric_limits<double>::denorm_min(), 1.0,
              "the reward's factor per step");
   }
-  std::string_view needs(std::string_view name) const {
-    return name == "mark" && opponent == Opponent::self ? "an opponent" : "";
-  }
 };
 
 struct ConnectFourWorld {

@@ -130,9 +130,6 @@ struct TicTacToeSettings : board::OpponentSettings {
     describe("discount", discount, std::numeric_limits<double>::denorm_min(), 1.0,
              "the reward's factor per step");
   }
-  std::string_view needs(std::string_view name) const {
-    return name == "mark" && opponent == "self" ? "an opponent" : "";
-  }
 };
 
 using Model = board::Compiled<TicTacToe>;

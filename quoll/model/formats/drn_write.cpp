@@ -44,6 +44,7 @@ std::vector<std::string> labels_of_states(const Mdp& mdp) {
 }  // namespace
 
 Result<std::string> write_drn(const Mdp& mdp) {
+  if (const Result<void> one = one_player(mdp); !one) return one.error();
   const Result<void> proper = proper_names(mdp);
   if (!proper) return proper.error();
   const Result<void> quotable = quotable_names(mdp);

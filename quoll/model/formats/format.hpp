@@ -64,6 +64,8 @@ Result<std::vector<WrittenFile>> write_model(const Mdp& mdp, const std::string& 
 
 /// Refuses a model with a name that no reader would take back (quoll/model/letters.hpp).
 Result<void> proper_names(const Mdp& mdp);
+/// Refuses a model in which two players move in turn, for formats that know one.
+Result<void> one_player(const Mdp& mdp);
 
 /// Refuses names of labels and rewards with quotation marks, for formats that put them between
 /// some.

@@ -179,6 +179,7 @@ void add_rewards(const Mdp& mdp, const std::string& stem, std::vector<WrittenFil
 }  // namespace
 
 Result<std::vector<WrittenFile>> write_prism(const Mdp& mdp, const std::string& path) {
+  if (const Result<void> one = one_player(mdp); !one) return one.error();
   const Result<void> proper = proper_names(mdp);
   if (!proper) return proper.error();
   const Result<void> fit = quotable_names(mdp);

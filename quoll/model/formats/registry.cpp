@@ -160,6 +160,11 @@ Result<void> quotable_names(const Mdp& mdp) {
   return {};
 }
 
+Result<void> one_player(const Mdp& mdp) {
+  if (!mdp.alternating()) return {};
+  return Error{"", 0, 0, "this format holds no model of two players", ""};
+}
+
 Result<void> proper_names(const Mdp& mdp) {
   const auto proper = [](const Names& names, const std::string& what) -> Result<void> {
     for (std::uint64_t i = 0; i < names.size(); ++i) {
