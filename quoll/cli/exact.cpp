@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "quoll/solve/methods.hpp"
 #include "quoll/solve/optimality.hpp"
 #include "quoll/solve/rounding.hpp"
 
@@ -44,16 +45,11 @@ OptimalActions::OptimalActions(const Mdp& mdp, const Solution& solution, bool ma
     : mdp_(mdp) {
   tied_.emplace(mdp, solution);
   if (maximise) return;
-  MdpArrays arrays = mdp.arrays();
-  for (double& reward : arrays.reward) reward = -reward;
-  for (double& reward : arrays.outcome_reward) reward = -reward;
-  Result<Mdp> turned = Mdp::make(std::move(arrays));
+  Result<Mdp> turned = negated_rewards(mdp);
   if (!turned) return;  // cannot happen: only signs differ from a valid model
   turned_.push_back(std::move(*turned));
   mirrored_.push_back(solution);
-  std::swap(mirrored_[0].lower, mirrored_[0].upper);
-  for (double& value : mirrored_[0].lower) value = -value;
-  for (double& value : mirrored_[0].upper) value = -value;
+  turn_signs(mirrored_[0].lower, mirrored_[0].upper);
   tied_.emplace(turned_[0], mirrored_[0]);
 }
 

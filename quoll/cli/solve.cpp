@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "quoll/base/file.hpp"
@@ -15,9 +14,9 @@
 #include "quoll/cli/exact.hpp"
 #include "quoll/cli/learn_report.hpp"
 #include "quoll/cli/solve_exact.hpp"
+#include "quoll/cli/solve_task.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/report/export_map.hpp"
-#include "quoll/report/grid_text.hpp"
 #include "quoll/report/progress.hpp"
 #include "quoll/solve/methods.hpp"
 #include "quoll/solve/rounding.hpp"
@@ -25,14 +24,14 @@
 namespace quoll::cli {
 namespace {
 
-constexpr std::uint64_t few_states = 20;
-
 /// What can be asked of a solve.
 struct ExactSettings {
   double discount = 0.0;
   double tolerance = 1e-6;
   std::string method = "auto";
   bool minimise = false;
+  std::uint64_t horizon = 0;
+  bool average = false;
 
   void describe(Describer& d) {
     d("discount", discount, 0, 1, "discount factor of the future; 0 = the world's own");
@@ -41,6 +40,9 @@ struct ExactSettings {
       "do");
     d("method", method, "auto, or a name from 'quoll list solvers'");
     d("minimise", minimise, "rewards are costs: find the least");
+    d("horizon", horizon, 0, 1e9,
+      "the best in so many steps, by a policy that looks at the steps left; 0 = no such limit");
+    d("average", average, "the best average reward per step over endless time (gain and bias)");
   }
 };
 
@@ -62,16 +64,6 @@ struct Solved {
   std::optional<RationalSolution> exact{};
 
   Interval start() const { return start_value(mdp, solution.lower, solution.upper); }
-};
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
 };
 
 std::string solve_json(const Solved& solved, bool all) {
@@ -136,10 +128,7 @@ std::string q_text(const Solved& solved) {
 std::string tables(const Solved& solved, const TerminalStyle& style, bool all) {
   const Mdp& mdp = solved.mdp;
   const Solution& solution = solved.solution;
-  if (mdp.layout() && mdp.states() > few_states && !all) {
-    const GridView view{&mdp, solution.lower, solution.policy, {}, ""};
-    if (const auto grid = grid_policy_text(view, style)) return *grid + "\n";
-  }
+  if (const auto grid = grid_page(mdp, solution.lower, solution.policy, style, all)) return *grid;
   const std::uint64_t shown = all ? mdp.states() : few_states;
   if (solved.exact) return exact_table(mdp, *solved.exact, shown) + "\n";
   const OptimalActions optimal(mdp, solution, !solved.asked.minimise);
@@ -156,18 +145,6 @@ std::string tables(const Solved& solved, const TerminalStyle& style, bool all) {
   if (mdp.states() > few_states || solved.asked.minimise) return text;
   const std::string q = q_text(solved);
   return q.empty() ? text : text + q + "\n";
-}
-
-std::string interval_text(const Interval& interval) {
-  if (interval.lower == interval.upper) return number_text(interval.lower);
-  if (number_text(interval.lower) != number_text(interval.upper)) {
-    return fmt::format("in [{}, {}]", number_text(interval.lower), number_text(interval.upper));
-  }
-  return number_text(interval.lower);
-}
-
-std::string time_text(double seconds) {
-  return seconds < 1.0 ? fmt::format("{:.3g} ms", 1000 * seconds) : duration_text(seconds);
 }
 
 std::string verdict(const Solved& solved) {
@@ -279,6 +256,12 @@ Exit solve(const SolveOptions& options) {
   }
   if (const Result<void> fits = check_form(options, *world); !fits) return fail(fits.error());
   catch_interrupts();
+  if (asked.horizon > 0 || asked.average) {
+    return solve_task(
+        {*world, *world->mdp, options.output, options.world.name, asked.discount, asked.tolerance,
+         asked.method, asked.minimise, options.threads, seconds_load},
+        asked.horizon, asked.average);
+  }
   const Stopwatch work;
   Result<Solution> solution = run_solver(options, asked, *world->mdp);
   const double seconds = work.seconds();

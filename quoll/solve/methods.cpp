@@ -58,18 +58,25 @@ std::optional<Error> undiscounted_error(const Mdp& mdp) {
   return Error{"--discount", 0, 0, why + "; a discount below 1 makes the values finite", ""};
 }
 
-Result<Solution> solve_minimised(Solver& solver, const Mdp& mdp, SolveSettings settings) {
+Result<Mdp> negated_rewards(const Mdp& mdp) {
   MdpArrays arrays = mdp.arrays();
   for (double& reward : arrays.reward) reward = -reward;
   for (double& reward : arrays.outcome_reward) reward = -reward;
-  Result<Mdp> negated = Mdp::make(std::move(arrays));
+  return Mdp::make(std::move(arrays));
+}
+
+void turn_signs(std::vector<double>& lower, std::vector<double>& upper) {
+  std::swap(lower, upper);
+  for (double& value : lower) value = -value + 0.0;
+  for (double& value : upper) value = -value + 0.0;
+}
+
+Result<Solution> solve_minimised(Solver& solver, const Mdp& mdp, SolveSettings settings) {
+  const Result<Mdp> negated = negated_rewards(mdp);
   if (!negated) return negated.error();
   settings.maximise = true;
   Result<Solution> result = solver.solve(*negated, settings);
-  if (!result) return result;
-  std::swap(result->lower, result->upper);
-  for (double& value : result->lower) value = -value + 0.0;
-  for (double& value : result->upper) value = -value + 0.0;
+  if (result) turn_signs(result->lower, result->upper);
   return result;
 }
 

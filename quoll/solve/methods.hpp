@@ -32,6 +32,10 @@ Result<double> discounted_only(const Mdp& mdp, const SolveSettings& settings,
 /// The Error that names what makes total reward undefined at discount 1, if something does.
 std::optional<Error> undiscounted_error(const Mdp& mdp);
 
+/// The same model with all rewards negated: its optimum is the least cost.
+Result<Mdp> negated_rewards(const Mdp& mdp);
+/// Turns bounds on its values into bounds on the costs.
+void turn_signs(std::vector<double>& lower, std::vector<double>& upper);
 /// Solves for the least cost: the same solver on the model with negated rewards.
 Result<Solution> solve_minimised(Solver& solver, const Mdp& mdp, SolveSettings settings);
 

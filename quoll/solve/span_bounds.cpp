@@ -26,16 +26,19 @@ ModelScale::ModelScale(const Mdp& mdp) {
   greatest_row_sum += doubt;
 }
 
-// With e = bound on |computed T V - true T V| (Higham 2002, section 3.1, and half an ulp more for
-// each number of the model), W' = computed W and M' >= true W - V: the constant k that makes W' + k
+double sweep_error(const ModelScale& scale, double size) {
+  const double operations = static_cast<double>(scale.most_outcomes) + 8.0;
+  const double magnitude = scale.reward_size + scale.greatest_row_sum * size;
+  return 4.0 * half_ulp * operations * magnitude + 1e-300;
+}
+
+// With e = sweep_error, W' = computed W and M' >= true W - V: the constant k that makes W' + k
 // inductive solves k = e + g rho (M' + k), rho being the row sum that makes it largest. The
 // factor 4 leaves room for the rounding of W' + k and of a checker's own sweep.
 SpanBounds span_bounds(const ModelScale& scale, double discount, double least, double greatest,
                        double size) {
   if (scale.reward_size == 0.0 && size == 0.0) return {0.0, 0.0, 0.0};  // all is exactly 0
-  const double operations = static_cast<double>(scale.most_outcomes) + 8.0;
-  const double magnitude = scale.reward_size + scale.greatest_row_sum * size;
-  const double error = 4.0 * half_ulp * operations * magnitude + 1e-300;
+  const double error = sweep_error(scale, size);
   if (scale.has_ends) {
     least = std::min(least, 0.0);
     greatest = std::max(greatest, 0.0);

@@ -20,6 +20,10 @@ struct ModelScale {
   explicit ModelScale(const Mdp& mdp);
 };
 
+/// Bound on |computed T V - true T V| in any state, for |V| <= size: rounding, and half an ulp more
+/// for each number of the model. Higham 2002, section 3.1.
+double sweep_error(const ModelScale& scale, double size);
+
 /// What to add to W: [W + lower, W + upper] holds V*, W + upper satisfies T U <= U, and W + lower
 /// satisfies T_policy L >= L for the greedy policy, checked with directed rounding or not.
 struct SpanBounds {

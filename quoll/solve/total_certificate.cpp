@@ -6,6 +6,7 @@
 
 #include "quoll/model/graph.hpp"
 #include "quoll/solve/ending.hpp"
+#include "quoll/solve/growth.hpp"
 #include "quoll/solve/induced.hpp"
 #include "quoll/solve/rounding.hpp"
 #include "quoll/solve/sweep.hpp"
@@ -192,12 +193,7 @@ class Prover {
     if (!free_.inside[c]) {
       sum = add_up(reward, (outcomes + 3.0) * 2.0 * half_ulp * reward_size_);
     }
-    for (std::uint64_t o = mdp_.outcome_begin(c); o < mdp_.outcome_end(c); ++o) {
-      const double step = add_up(sign * bound[mdp_.next(o)], -sign * bound[s]);
-      const Meant p(mdp_.probability(o));
-      sum = add_up(sum, scale_up(step >= 0.0 ? p.upper : p.lower, step));
-    }
-    return sum;
+    return growth_up(mdp_, bound, sign, s, c, sum);
   }
 
   // T_pi L >= L for L = V - excess * w.
