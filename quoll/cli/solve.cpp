@@ -171,6 +171,10 @@ std::string verdict(const Solved& solved) {
   return text;
 }
 
+bool tolerance_given(const SolveOptions& options, const ExactSettings& asked) {
+  return asked_for(options.given, "tolerance") || asked.tolerance != ExactSettings().tolerance;
+}
+
 Result<Solution> run_solver(const SolveOptions& options, const ExactSettings& asked,
                             const Mdp& mdp) {
   SolveSettings settings;
@@ -186,10 +190,8 @@ Result<Solution> run_solver(const SolveOptions& options, const ExactSettings& as
   };
   Result<Solution> solution = quoll::solve(mdp, settings, asked.method);
   if (!solution) return solution;
-  const bool given =
-      asked_for(options.given, "tolerance") || asked.tolerance != ExactSettings().tolerance;
-  const double width =
-      wanted_width(asked.tolerance, given, 1e-12, solution->lower, solution->upper);
+  const double width = wanted_width(asked.tolerance, tolerance_given(options, asked), 1e-12,
+                                    solution->lower, solution->upper);
   solution->converged = largest_gap(mdp, *solution) <= width;
   return solution;
 }
@@ -257,10 +259,10 @@ Exit solve(const SolveOptions& options) {
   if (const Result<void> fits = check_form(options, *world); !fits) return fail(fits.error());
   catch_interrupts();
   if (asked.horizon > 0 || asked.average) {
-    return solve_task(
-        {*world, *world->mdp, options.output, options.world.name, asked.discount, asked.tolerance,
-         asked.method, asked.minimise, options.threads, seconds_load},
-        asked.horizon, asked.average);
+    return solve_task({*world, *world->mdp, options.output, options.world.name, asked.discount,
+                       asked.tolerance, tolerance_given(options, asked), asked.method,
+                       asked.minimise, options.exact, options.threads, seconds_load},
+                      asked.horizon, asked.average);
   }
   const Stopwatch work;
   Result<Solution> solution = run_solver(options, asked, *world->mdp);

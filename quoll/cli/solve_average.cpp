@@ -138,6 +138,10 @@ std::string class_lines(const AverageAnswer& answer, bool all) {
                         classes[k].stays ? "" : ", left by the best policy");
   }
   if (shown < classes.size()) text += fmt::format("  ... and {} more\n", classes.size() - shown);
+  if (classes.back().ends) {
+    text +=
+        "what is earned before an end counts nothing in endless time; without --average it does\n";
+  }
   return text;
 }
 
@@ -195,8 +199,13 @@ Exit solve_average(const SolveTask& task) {
   settings.keep_going = show_sweeps(display, 0, true);
   const Stopwatch work;
   Result<AverageSolution> solution = quoll::solve_average(task.mdp, settings);
+  const double seconds = work.seconds();
+  release_interrupts();
   if (!solution) return fail(solution.error());
-  const AverageAnswer answer{task, std::move(*solution), work.seconds()};
+  solution->converged =
+      solution->completed && solution->gap <= wanted_width(task.tolerance, task.tolerance_given,
+                                                           1e-12, solution->lower, solution->upper);
+  const AverageAnswer answer{task, std::move(*solution), seconds};
   if (!task.output.file.empty()) {
     const Result<void> written =
         write_output(task.output.file, average_json(answer, true), {task.input});

@@ -18,7 +18,11 @@ struct HorizonAnswer {
   double seconds;
 
   Interval start() const { return start_value(task.mdp, solution.lower, solution.upper); }
-  bool converged() const { return solution.steps == steps && solution.gap <= task.tolerance; }
+  bool converged() const {
+    return solution.steps == steps &&
+           solution.gap <= wanted_width(task.tolerance, task.tolerance_given, 1e-12, solution.lower,
+                                        solution.upper);
+  }
 };
 
 std::string horizon_json(const HorizonAnswer& answer, bool all) {
@@ -58,7 +62,7 @@ std::string policy_text(const HorizonAnswer& answer) {
           ? "the policy differs from step to step"
           : fmt::format("the policy is the same while {} or more steps are left, then differs",
                         grouped(solution.settled));
-  return fmt::format("{}: {} change{} of a state's move, at {} of the steps (--json has them)\n",
+  return fmt::format("{}: {} change{} of a state's move, at {} of the steps; --json has them\n",
                      settled, grouped(solution.action_changes),
                      solution.action_changes == 1 ? "" : "s", grouped(solution.changing_steps));
 }
@@ -87,7 +91,7 @@ std::string horizon_text(const HorizonAnswer& answer, bool all) {
   if (solution.steps == answer.steps) {
     text += ", certified: no state of this policy loses more than " + number_text(solution.gap);
     if (!answer.converged()) text += fmt::format(" (--tolerance {})", number_text(task.tolerance));
-    text += "\nabove are values and moves at the first step; ";
+    text += "\nabove: values and moves at the first step\n";
     text += policy_text(answer);
   } else {
     text += fmt::format(": stopped after {} of the steps\n", grouped(solution.steps));
@@ -113,8 +117,10 @@ Exit solve_horizon(const SolveTask& task, std::uint64_t steps) {
   settings.keep_going = show_sweeps(display, steps, false);
   const Stopwatch work;
   Result<HorizonSolution> solution = quoll::solve_horizon(task.mdp, settings);
+  const double seconds = work.seconds();
   if (!solution) return fail(solution.error());
-  const HorizonAnswer answer{task, steps, std::move(*solution), work.seconds()};
+  release_interrupts();
+  const HorizonAnswer answer{task, steps, std::move(*solution), seconds};
   if (!task.output.file.empty()) {
     const Result<void> written =
         write_output(task.output.file, horizon_json(answer, true), {task.input});

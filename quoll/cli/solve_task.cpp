@@ -12,6 +12,13 @@ Exit solve_task(const SolveTask& task, std::uint64_t horizon, bool average) {
   if (average && horizon > 0) {
     return fail({"--horizon", 0, 0, "--average asks for endless time: give one of the two", ""});
   }
+  const std::string flag = average ? "--average" : "--horizon";
+  if (task.exact) return fail({"--exact", 0, 0, flag + " has no answer in fractions", ""});
+  const std::string& file = task.output.file;
+  if (file.ends_with(".csv") || file.ends_with(".yaml")) {
+    return fail({"-o", 0, 0,
+                 "with " + flag + " a name that ends in .json expected, not '" + file + "'", ""});
+  }
   return average ? solve_average(task) : solve_horizon(task, horizon);
 }
 

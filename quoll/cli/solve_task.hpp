@@ -25,8 +25,10 @@ struct SolveTask {
   std::string input;      ///< the world as it was named
   double discount = 0.0;  ///< 0 = the world's own
   double tolerance = 0.0;
+  bool tolerance_given = false;  ///< else also 1e-12 of the largest value will do
   std::string method;
   bool minimise = false;
+  bool exact = false;  ///< fractions were asked for
   unsigned threads = 0;
   double seconds_load = 0.0;
 };

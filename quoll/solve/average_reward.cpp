@@ -56,7 +56,7 @@ class Averaging {
       if (out_.lower[s] == out_.upper[s]) continue;
       out_.gap = std::max(out_.gap, add_up(out_.upper[s], -out_.lower[s]));
     }
-    out_.converged = !stopped_ && out_.gap <= settings_.width;
+    out_.converged = out_.completed && out_.gap <= settings_.width;
     return std::move(out_);
   }
 
@@ -98,7 +98,7 @@ class Averaging {
     Result<PartGains> gains = part_gains(mdp_, parts, settings_);
     if (!gains) return gains;
     out_.sweeps = gains->sweeps;
-    stopped_ = gains->stopped;
+    out_.completed = !gains->stopped;
     for (std::uint32_t k = 0; k < parts.count; ++k) {
       out_.classes[k].lower = gains->lower[k];
       out_.classes[k].upper = gains->upper[k];
@@ -293,7 +293,6 @@ class Averaging {
   std::vector<State> node_;     // per state of the model
   std::vector<Origin> origin_;  // per choice of the joined model
   AverageSolution out_;
-  bool stopped_ = false;
 };
 
 }  // namespace

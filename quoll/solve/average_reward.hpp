@@ -40,8 +40,9 @@ struct AverageSolution {
   std::vector<StayingClass> classes;
   ChainStructure structure = ChainStructure::multichain;
   std::uint64_t sweeps = 0;
-  double gap = 0.0;  ///< largest upper - lower
-  bool converged = false;
+  double gap = 0.0;        ///< largest upper - lower
+  bool completed = false;  ///< not stopped before its time
+  bool converged = false;  ///< completed, and gap <= the width asked for
 };
 
 /// Solves for the largest average reward per step (settings: width, maximise, threads, max_sweeps,

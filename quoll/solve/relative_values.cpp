@@ -100,17 +100,24 @@ class RelativeIteration {
   double size_ = 0.0;
 };
 
+// Of a choice's reward as a rounded expectation over its outcomes.
+double expectation_error(const Mdp& mdp, std::uint64_t c) {
+  double size = 0.0;
+  for (std::uint64_t o = mdp.outcome_begin(c); o < mdp.outcome_end(c); ++o) {
+    size = std::max(size, std::fabs(mdp.reward(c, o)));
+  }
+  const double outcomes = static_cast<double>(mdp.outcome_end(c) - mdp.outcome_begin(c));
+  return (outcomes + 3.0) * 2.0 * half_ulp * size;
+}
+
 // Step 5, on the model as it was given.
 void bound_gains(const Mdp& mdp, const ClosedParts& parts, PartGains& gains) {
   gains.lower.assign(parts.count, infinity);
   gains.upper.assign(parts.count, -infinity);
   const bool varied = !mdp.arrays().outcome_reward.empty();
-  const auto [low, high] = mdp.reward_bounds();
-  const double size = std::max(std::fabs(low), std::fabs(high));
   const auto growth = [&](double sign, State s, std::uint64_t c) {
-    const double outcomes = static_cast<double>(mdp.outcome_end(c) - mdp.outcome_begin(c));
-    double reward = Meant(sign * mdp.reward(c)).upper;  // an expectation is itself rounded
-    if (varied) reward = add_up(reward, (outcomes + 3.0) * 2.0 * half_ulp * size);
+    double reward = Meant(sign * mdp.reward(c)).upper;
+    if (varied) reward = add_up(reward, expectation_error(mdp, c));
     return growth_up(mdp, gains.value, sign, s, c, reward);
   };
   for (State s = 0; s < mdp.states(); ++s) {
