@@ -10,6 +10,7 @@
 
 #include "quoll/base/file.hpp"
 #include "quoll/base/text.hpp"
+#include "quoll/cli/certificate.hpp"
 #include "quoll/cli/common.hpp"
 #include "quoll/cli/exact.hpp"
 #include "quoll/cli/learn_report.hpp"
@@ -52,6 +53,7 @@ struct SolveOptions {
   GivenSettings given;
   unsigned threads = 0;
   bool exact = false;
+  std::string certificate;
 };
 
 /// An answer with what is needed to report it.
@@ -270,6 +272,12 @@ Exit solve(const SolveOptions& options) {
   release_interrupts();
   if (!solution) return fail(solution.error());
   Solved solved{*world, *world->mdp, asked, std::move(*solution), seconds, seconds_load};
+  // Before another policy, whose value these bounds do not prove, takes its place.
+  if (!options.certificate.empty()) {
+    const Result<void> written = write_certificate(options.certificate, *world, solved.solution,
+                                                   !asked.minimise, options.world.name);
+    if (!written) return fail(written.error());
+  }
   if (options.exact) {
     auto exact = prove_exactly(solved.mdp, solved.solution, !asked.minimise, options.output.quiet);
     if (!exact) return fail(exact.error());
@@ -303,6 +311,8 @@ void declare_solve(Options& options) {
                  "processors to use; 0 = all; changes no result");
   options.flag("--exact", &given->exact,
                "value the policy in fractions and prove it optimal without rounding");
+  options.option("--certificate", &given->certificate, "FILE",
+                 "write bounds and policy for 'quoll verify WORLD FILE'");
   given->output.declare(
       options,
       "also write the JSON object, complete; of a grid as NAME.csv x, y, move and cost, as "

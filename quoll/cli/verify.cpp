@@ -1,4 +1,5 @@
-// quoll verify WORLD RUN: what the policy of a saved run can lose at most, checked independently.
+// quoll verify WORLD FILE: a certificate, or what the policy of a saved run can lose at most,
+// checked independently.
 
 #include "quoll/verify/verify.hpp"
 
@@ -8,11 +9,13 @@
 
 #include "quoll/base/json.hpp"
 #include "quoll/base/text.hpp"
+#include "quoll/cli/certificate.hpp"
 #include "quoll/cli/common.hpp"
 #include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/policy_file.hpp"
 #include "quoll/cli/same_world.hpp"
 #include "quoll/cli/verbs.hpp"
+#include "quoll/verify/certificate.hpp"
 
 namespace quoll::cli {
 namespace {
@@ -97,6 +100,9 @@ std::string verify_text(const Run& run, const JudgedRun& judged) {
 }
 
 Exit verify(const VerifyOptions& options) {
+  if (is_certificate(options.file)) {
+    return verify_certificate(options.world, options.file, options.json);
+  }
   const Result<World> world = options.world.open();
   if (!world) return fail(world.error());
   const std::string file = run_file(options.file);
@@ -121,7 +127,8 @@ Exit verify(const VerifyOptions& options) {
 void declare_verify(Options& options) {
   auto given = std::make_shared<VerifyOptions>();
   given->world.declare(options);
-  options.word("file", given->file, "a saved run: run.quoll, or the folder of a run");
+  options.word("file", given->file,
+               "a certificate of solve, or a saved run: run.quoll, or the folder of a run");
   options.flag("--json", &given->json, "print one JSON object on stdout");
   options.run([given] { return verify(*given); });
 }
