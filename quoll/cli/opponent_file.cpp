@@ -1,11 +1,11 @@
 #include "quoll/cli/opponent_file.hpp"
 
 #include "quoll/base/file.hpp"
+#include "quoll/base/json_tree.hpp"
 #include "quoll/cli/judged_run.hpp"
 #include "quoll/experiment/run.hpp"
 #include "quoll/model/formats/fields.hpp"
 #include "quoll/report/export_policy.hpp"
-#include "quoll/base/json_tree.hpp"
 
 namespace quoll::cli {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "quoll/act/policy.hpp"
 #include "quoll/base/file.hpp"
+#include "quoll/base/json_tree.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/policy_file.hpp"
 #include "quoll/model/formats/mentions.hpp"
-#include "quoll/base/json_tree.hpp"
 
 namespace quoll::cli {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "quoll/base/error.hpp"
+#include "quoll/base/json.hpp"
 #include "quoll/model/mdp.hpp"
 #include "quoll/model/solution.hpp"
-#include "quoll/base/json.hpp"
 #include "quoll/solve/rational_solver.hpp"
 
 namespace quoll::cli {

@@ -59,10 +59,9 @@ class GameIteration {
  private:
   // Steps 2 and 3: whether the bounds are as narrow as asked, or as rounding allows.
   bool certify() {
-    const Residual residual =
-        sweep_all(mdp_, mdp_.carry(discount_),
-                  Residual{value_.data(), backed_up_.data(), solution_.policy.data()},
-                  settings_.threads);
+    const Residual residual = sweep_all(
+        mdp_, mdp_.carry(discount_),
+        Residual{value_.data(), backed_up_.data(), solution_.policy.data()}, settings_.threads);
     std::swap(value_, backed_up_);
     count_sweep();
     distance_ = std::max({0.0, residual.greatest, -residual.least});

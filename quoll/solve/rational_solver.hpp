@@ -25,7 +25,7 @@ struct Fraction {
 struct RationalSettings {
   bool maximise = true;
   std::uint64_t most_outcomes = 1'000'000;  ///< of models that are tried at all
-  std::uint64_t most_together = 20'000;      ///< states of one strongly connected component
+  std::uint64_t most_together = 20'000;     ///< states of one strongly connected component
   /// Called now and then with the number of states that are done; false stops the work.
   std::function<bool(std::uint64_t)> keep_going;
 };

@@ -96,8 +96,8 @@ TEST(Alternating, FilesKeepTheFlag) {
   for (const Format& format : formats()) {
     if (format.write == nullptr) continue;
     const auto text = format.write(*world.mdp);
-    const bool ours = format.name == "toml" || format.name == "csv" ||
-                      format.name == "umb" || format.name == "gymnasium";
+    const bool ours = format.name == "toml" || format.name == "csv" || format.name == "umb" ||
+                      format.name == "gymnasium";
     EXPECT_EQ(static_cast<bool>(text), ours) << format.name;
     if (!text) continue;  // others know one player only, and say so
     const auto again = parse_model(*text, "nim" + std::string(format.extension));
