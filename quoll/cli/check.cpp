@@ -39,7 +39,7 @@ struct Checked {
 Result<MdpArrays> open_arrays(const CheckOptions& options) {
   const std::string& name = options.world.name;
   const bool file = name.find('/') != std::string::npos || name.find('.') != std::string::npos;
-  if (file && !find_world_entry(name)) {
+  if (file && !find_world_entry(name) && !options.world.aimed()) {
     const Result<WorldSource> source = options.world.source();
     return source ? read_model_arrays(name, source->parameters) : source.error();
   }

@@ -26,6 +26,10 @@ Exit fail(const Error& error) {
 void WorldOption::declare(Options& options) {
   options.word("world", name, "a built-in world (see 'quoll list worlds') or a file");
   options.option("--with", &with, "KEY=VALUE", "a parameter of the world; may be repeated");
+  options.option("--goal", &goal, "LABEL",
+                 "an episode is over where this label holds; also !A, A & B, A | B and states; "
+                 "without --reward what counts is the probability of reaching it");
+  options.option("--reward", &rewards, "NAME", "which rewards of the world count");
 }
 
 namespace {
@@ -41,7 +45,7 @@ Result<std::pair<std::string, std::string>> key_value(const std::string& text,
 
 }  // namespace
 
-Result<WorldSource> WorldOption::source() const {
+Result<WorldSource> WorldOption::source(bool minimise) const {
   WorldSource source{name, {}};
   for (const std::string& text : with) {
     const auto parameter = key_value(text, "--with");
@@ -51,17 +55,20 @@ Result<WorldSource> WorldOption::source() const {
     }
     source.parameters.push_back(*parameter);
   }
+  if (!goal.empty()) source.parameters.emplace_back("--goal", goal);
+  if (!rewards.empty()) source.parameters.emplace_back("--reward", rewards);
+  if (!goal.empty() && minimise) source.parameters.emplace_back("--minimise", "true");
   return source;
 }
 
-Result<World> WorldOption::open() const {
-  const Result<WorldSource> from = source();
+Result<World> WorldOption::open(bool minimise) const {
+  const Result<WorldSource> from = source(minimise);
   if (!from) return from.error();
   return find_world(from->name, from->parameters);
 }
 
-Result<World> WorldOption::open(const GivenSettings& given) const {
-  const Result<WorldSource> from = source();
+Result<World> WorldOption::open(const GivenSettings& given, bool minimise) const {
+  const Result<WorldSource> from = source(minimise);
   if (!from) return from.error();
   const auto settings = given.given();
   if (!settings) return settings.error();

@@ -25,17 +25,20 @@ Exit fail(const Error& error);
 
 struct GivenSettings;
 
-/// The world of a command line: WORLD and --with key=value.
+/// The world of a command line: WORLD, --with key=value, --goal and --reward.
 struct WorldOption {
   std::string name;
   std::vector<std::string> with;
+  std::string goal, rewards;
 
   void declare(Options& options);
-  /// Refuses a key given twice.
-  Result<WorldSource> source() const;
-  Result<World> open() const;
+  /// Refuses a key given twice. `minimise`: the goal is to be reached with the least probability.
+  Result<WorldSource> source(bool minimise = false) const;
+  Result<World> open(bool minimise = false) const;
   /// Refuses a discount or a step limit that is also given as a setting.
-  Result<World> open(const GivenSettings& given) const;
+  Result<World> open(const GivenSettings& given, bool minimise = false) const;
+  /// Whether anything is asked beyond what the world says.
+  bool aimed() const { return !goal.empty() || !rewards.empty(); }
 };
 
 /// --json, --quiet, --all, -o.

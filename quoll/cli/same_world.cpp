@@ -36,10 +36,12 @@ bool same_world(const World& one, const World& other) {
                     });
 }
 
-// "cartpole --with bins=6,6,12,12"
+// "cartpole --with bins=6,6,12,12", "model.tra --goal done"
 std::string described(const World& world) {
   std::string text = world.name;
-  for (const auto& [key, value] : world.parameters) text += " --with " + key + "=" + value;
+  for (const auto& [key, value] : world.parameters) {
+    text += key.starts_with("--") ? " " + key + " " + value : " --with " + key + "=" + value;
+  }
   return text;
 }
 

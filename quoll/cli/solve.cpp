@@ -7,18 +7,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "quoll/base/file.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/certificate.hpp"
 #include "quoll/cli/common.hpp"
 #include "quoll/cli/exact.hpp"
+#include "quoll/cli/infinite.hpp"
 #include "quoll/cli/learn_report.hpp"
 #include "quoll/cli/solve_exact.hpp"
 #include "quoll/cli/solve_task.hpp"
 #include "quoll/cli/verbs.hpp"
+#include "quoll/model/goal.hpp"
 #include "quoll/report/export_map.hpp"
 #include "quoll/report/progress.hpp"
+#include "quoll/solve/defined_part.hpp"
 #include "quoll/solve/methods.hpp"
 #include "quoll/solve/rounding.hpp"
 
@@ -59,23 +63,34 @@ struct SolveOptions {
 /// An answer with what is needed to report it.
 struct Solved {
   const World& world;
-  const Mdp& mdp;
   ExactSettings asked;
   Solution solution;
+  std::vector<double> shown_lower, shown_upper;  ///< empty = as the solution has them
+  std::shared_ptr<const DefinedPart> outside;    ///< of a reward until a goal: where it is infinite
   double seconds = 0.0, seconds_load = 0.0;
   std::optional<RationalSolution> exact{};
 
-  Interval start() const { return start_value(mdp, solution.lower, solution.upper); }
+  /// The model that was solved.
+  const Mdp& mdp() const { return outside->part ? *outside->part : *world.mdp; }
+  /// What the states are worth to people: who stands in a goal has reached it with probability 1.
+  std::span<const double> lower() const {
+    return shown_lower.empty() ? solution.lower : shown_lower;
+  }
+  std::span<const double> upper() const {
+    return shown_upper.empty() ? solution.upper : shown_upper;
+  }
+  Interval start() const { return start_value(mdp(), lower(), upper()); }
 };
 
 std::string solve_json(const Solved& solved, bool all) {
-  const Mdp& mdp = solved.mdp;
+  const Mdp& mdp = solved.mdp();
   const Solution& solution = solved.solution;
   const OptimalActions optimal(mdp, solution, !solved.asked.minimise);
   JsonWriter json(JsonStyle::pretty);
   json.begin_object();
-  json.member("world", solved.world.name).member("states", mdp.states());
-  json.member("choices", mdp.choices()).member("transitions", mdp.outcomes());
+  const Mdp& whole = *solved.world.mdp;
+  json.member("world", solved.world.name).member("states", whole.states());
+  json.member("choices", whole.choices()).member("transitions", whole.outcomes());
   json.member("discount", solution.discount);
   json.member("objective", solved.asked.minimise ? "minimise" : "maximise");
   json.member("method", solution.method).member("sweeps", solution.sweeps);
@@ -85,19 +100,24 @@ std::string solve_json(const Solved& solved, bool all) {
   json.rows("values", mdp.states(), all, [&](std::uint64_t i) {
     const auto s = static_cast<State>(i);
     json.begin_object().member("state", mdp.state_name(s));
-    json.member("lower", solution.lower[s]).member("upper", solution.upper[s]);
+    json.member("lower", solved.lower()[s]).member("upper", solved.upper()[s]);
     write_action(json, "action", mdp, s, solution.policy[s]);
     json.key("optimal").begin_array();
     for (const Action a : optimal.of(s)) json.value(mdp.action_name(mdp.choice_begin(s) + a));
     json.end_array().end_object();
   });
   if (solved.exact) write_exact(json, mdp, *solved.exact, all);
+  if (solved.outside->part) {
+    const std::vector<State> states = infinite_states(*solved.outside);
+    json.rows("infinite", states.size(), all,
+              [&](std::uint64_t i) { json.value(mdp.state_name(states[i])); });
+  }
   json.end_object();
   return json.text() + "\n";
 }
 
 std::string heading(const Solved& solved) {
-  const Mdp& mdp = solved.mdp;
+  const Mdp& mdp = *solved.world.mdp;
   return fmt::format(
       "solve {}   {} states, {} choices, {}, discount {}, {}, method {}\n\n", solved.world.name,
       grouped(mdp.states()), grouped(mdp.choices()),
@@ -109,16 +129,16 @@ std::string heading(const Solved& solved) {
 /// Q* of every choice beside each other, for worlds that fit on a page; nothing if one of them is
 /// not known at all.
 std::string q_text(const Solved& solved) {
-  std::vector<double> q = q_star_all(solved.mdp, solved.solution, solved.solution.discount);
+  std::vector<double> q = q_star_all(solved.mdp(), solved.solution, solved.solution.discount);
   // The middle of an interval around 0 is noise; 0 is as true and says more.
-  const double gap = largest_gap(solved.mdp, solved.solution);
+  const double gap = largest_gap(solved.mdp(), solved.solution);
   for (double& x : q) {
     if (std::fabs(x) <= 0.5 * gap) x = 0.0;
   }
   const bool known = std::none_of(q.begin(), q.end(), [](double x) { return std::isnan(x); });
   if (!known) return "";
   QTableView view;
-  view.mdp = &solved.mdp;
+  view.mdp = &solved.mdp();
   view.q = q;
   view.q_is_float = false;
   view.q_title = "Q*";
@@ -128,7 +148,7 @@ std::string q_text(const Solved& solved) {
 }
 
 std::string tables(const Solved& solved, const TerminalStyle& style, bool all) {
-  const Mdp& mdp = solved.mdp;
+  const Mdp& mdp = solved.mdp();
   const Solution& solution = solved.solution;
   if (const auto grid = grid_page(mdp, solution.lower, solution.policy, style, all)) return *grid;
   const std::uint64_t shown = all ? mdp.states() : few_states;
@@ -137,8 +157,8 @@ std::string tables(const Solved& solved, const TerminalStyle& style, bool all) {
   const std::vector<std::uint8_t> flags = optimal.flags(shown);
   ValueTableView view;
   view.mdp = &mdp;
-  view.lower = solution.lower;
-  view.upper = solution.upper;
+  view.lower = solved.lower();
+  view.upper = solved.upper();
   view.policy = solution.policy;
   view.optimal = flags;
   view.states = all ? 0 : few_states;
@@ -161,12 +181,13 @@ std::string verdict(const Solved& solved) {
     text = "start value " + interval_text(start);
     text += solution.converged ? ", certified: no state of this policy loses more than "
                                : ", not as close as asked: the policy may lose up to ";
-    text += number_text(largest_gap(solved.mdp, solution));
+    text += number_text(largest_gap(solved.mdp(), solution));
     if (!solution.converged) {
       text += fmt::format(" (--tolerance {})", number_text(solved.asked.tolerance));
     }
     text += "\n";
   }
+  text += infinite_text(solved.mdp(), *solved.outside, solved.asked.minimise);
   text += fmt::format("{} sweep{} in {} (loaded in {})\n", grouped(solution.sweeps),
                       solution.sweeps == 1 ? "" : "s", time_text(solved.seconds),
                       time_text(solved.seconds_load));
@@ -224,7 +245,7 @@ Result<void> write_answer(const Solved& solved, const std::string& file, const s
   if (!solved.asked.minimise) {
     for (double& c : cost) c = -c;
   }
-  const MapExport map{&solved.mdp, solution.policy, cost};
+  const MapExport map{&solved.mdp(), solution.policy, cost};
   if (!rows) return write_cost_image(map, file, world);
   const Result<std::string> text = moves_csv(map);
   return text ? write_output(file, *text, {world}) : text.error();
@@ -246,12 +267,40 @@ Result<void> check_form(const SolveOptions& options, const World& world) {
                ""};
 }
 
+void show_goal(const SolveOptions& options, Solved& solved) {
+  if (options.world.goal.empty() || !options.world.rewards.empty()) return;
+  const Result<std::vector<State>> goal = states_of(*solved.world.mdp, options.world.goal);
+  if (!goal) return;  // cannot happen: the world was made with it
+  solved.shown_lower = solved.solution.lower;
+  solved.shown_upper = solved.solution.upper;
+  for (const State s : *goal) solved.shown_lower[s] = solved.shown_upper[s] = 1.0;
+}
+
+/// Solves the part of the world in which what was asked is defined.
+Result<Solved> answer(const SolveOptions& options, const ExactSettings& asked, const World& world,
+                      double seconds_load) {
+  const Stopwatch work;
+  DefinedPart outside;
+  const double discount = asked.discount > 0.0 ? asked.discount : world.mdp->discount();
+  if (!options.world.goal.empty() && !options.world.rewards.empty() && discount == 1.0) {
+    Result<DefinedPart> defined = defined_part(*world.mdp, !asked.minimise);
+    if (!defined) return defined.error();
+    outside = *std::move(defined);
+    if (const auto error = infinite_start(*world.mdp, outside, asked.minimise)) return *error;
+  }
+  Result<Solution> solution = run_solver(options, asked, outside.part ? *outside.part : *world.mdp);
+  if (!solution) return solution.error();
+  outside.fill(!asked.minimise, *solution);
+  const auto part = std::make_shared<const DefinedPart>(std::move(outside));
+  return Solved{world, asked, *std::move(solution), {}, {}, part, work.seconds(), seconds_load};
+}
+
 Exit solve(const SolveOptions& options) {
   ExactSettings asked;
   const Result<void> applied = options.given.apply(settings_of(asked));
   if (!applied) return fail(applied.error());
   const Stopwatch load;
-  const Result<World> world = options.world.open(options.given);
+  const Result<World> world = options.world.open(options.given, asked.minimise);
   if (!world) return fail(world.error());
   const double seconds_load = load.seconds();
   if (!world->mdp) {
@@ -266,12 +315,10 @@ Exit solve(const SolveOptions& options) {
                        asked.minimise, options.exact, options.threads, seconds_load},
                       asked.horizon, asked.average);
   }
-  const Stopwatch work;
-  Result<Solution> solution = run_solver(options, asked, *world->mdp);
-  const double seconds = work.seconds();
+  Result<Solved> result = answer(options, asked, *world, seconds_load);
   release_interrupts();
-  if (!solution) return fail(solution.error());
-  Solved solved{*world, *world->mdp, asked, std::move(*solution), seconds, seconds_load};
+  if (!result) return fail(result.error());
+  Solved& solved = *result;
   // Before another policy, whose value these bounds do not prove, takes its place.
   if (!options.certificate.empty()) {
     const Result<void> written = write_certificate(options.certificate, *world, solved.solution,
@@ -279,11 +326,13 @@ Exit solve(const SolveOptions& options) {
     if (!written) return fail(written.error());
   }
   if (options.exact) {
-    auto exact = prove_exactly(solved.mdp, solved.solution, !asked.minimise, options.output.quiet);
+    auto exact =
+        prove_exactly(solved.mdp(), solved.solution, !asked.minimise, options.output.quiet);
     if (!exact) return fail(exact.error());
     solved.exact = std::move(*exact);
     if (solved.exact) solved.solution.policy = solved.exact->policy;
   }
+  show_goal(options, solved);
   if (!options.output.file.empty()) {
     const Result<void> written = write_answer(solved, options.output.file, options.world.name);
     if (!written) return fail(written.error());
@@ -293,7 +342,7 @@ Exit solve(const SolveOptions& options) {
     text = solve_json(solved, options.output.all);
   } else {
     text = heading(solved) + tables(solved, stdout_style(), options.output.all) + verdict(solved);
-    if (solved.exact) text += exact_verdict(solved.mdp, *solved.exact);
+    if (solved.exact) text += exact_verdict(solved.mdp(), *solved.exact);
   }
   if (!print(text)) return user_error;
   const bool proved = !options.exact || solved.exact;

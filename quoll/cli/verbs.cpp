@@ -10,6 +10,7 @@ constexpr Verb entries[] = {
     {"play", "one episode, step by step, by a policy, given actions or by hand", declare_play},
     {"verify", "what a saved run can lose at most, checked independently", declare_verify},
     {"check", "what is wrong or suspicious in a world", declare_check},
+    {"convert", "a world in another format", declare_convert},
     {"new", "a world file to begin with: a maze or a template", declare_new},
     {"list", "what there is to choose from", declare_list},
     {"export", "the policy of a saved run for C, JSON or CSV", declare_export},

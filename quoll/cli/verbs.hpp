@@ -6,6 +6,7 @@
 namespace quoll::cli {
 
 void declare_check(Options& options);
+void declare_convert(Options& options);
 void declare_evaluate(Options& options);
 void declare_play(Options& options);
 void declare_explain(Options& options);

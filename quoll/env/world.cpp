@@ -5,6 +5,7 @@
 #include "quoll/base/text.hpp"
 #include "quoll/env/mdp_environment.hpp"
 #include "quoll/model/formats/format.hpp"
+#include "quoll/model/goal.hpp"
 
 namespace quoll {
 
@@ -79,6 +80,56 @@ bool names_a_file(const std::string& text) {
   return text.find('/') != std::string::npos || text.find('.') != std::string::npos;
 }
 
+Result<World> find_unaimed(const std::string& name_or_file, const Parameters& parameters) {
+  if (Found found = find_entry(name_or_file); found.entry) {
+    const Parameters all = merged(std::move(found.parameters), parameters);
+    Result<World> world = found.entry->make(all);
+    if (world) world->parameters = all;
+    return world;
+  }
+  if (!names_a_file(name_or_file)) {
+    Nearest nearest(name_or_file);
+    for (const WorldEntry* const entry : worlds()) {
+      nearest.offer(entry->name);
+      for (const std::string_view alias : split(entry->aliases, ' ')) {
+        if (!alias.empty()) nearest.offer(parse_alias(alias).name);
+      }
+    }
+    return Error{"", 0, 0,
+                 "no world '" + name_or_file +
+                     "'; a built-in name (see 'quoll list worlds') or a file expected",
+                 nearest.best()};
+  }
+  Result<Mdp> mdp = read_model(name_or_file, parameters);
+  if (!mdp) return mdp.error();
+  World world = to_world(stem(name_or_file), std::move(*mdp));
+  world.parameters = merged({}, parameters);
+  return world;
+}
+
+// Takes what is asked of the model, which is kept among the parameters, out of them.
+Goal take_goal(Parameters& parameters) {
+  Goal goal;
+  std::erase_if(parameters, [&](const auto& one) {
+    const auto& [key, value] = one;
+    if (key == "--goal") goal.states = value;
+    if (key == "--reward") goal.rewards = value;
+    if (key == "--minimise") goal.minimise = value == "true";
+    return key == "--goal" || key == "--reward" || key == "--minimise";
+  });
+  return goal;
+}
+
+Result<World> aimed(World world, const Goal& goal) {
+  if (!world.mdp) {
+    return Error{goal.states.empty() ? "--reward" : "--goal", 0, 0,
+                 "expected a world with a model, which " + world.name + " has not", ""};
+  }
+  Result<Mdp> mdp = aim(*world.mdp, goal);
+  if (!mdp) return mdp.error();
+  return to_world(std::move(world.name), *std::move(mdp), {}, world.episode_steps);
+}
+
 }  // namespace
 
 const WorldEntry* find_world_entry(std::string_view name) {
@@ -103,29 +154,16 @@ Offer offer_of(const WorldEntry& entry) {
 }
 
 Result<World> find_world(const std::string& name_or_file, const Parameters& parameters) {
-  if (Found found = find_entry(name_or_file); found.entry) {
-    const Parameters all = merged(std::move(found.parameters), parameters);
-    Result<World> world = found.entry->make(all);
-    if (world) world->parameters = all;
-    return world;
+  Parameters of_world = parameters;
+  const Goal goal = take_goal(of_world);
+  Result<World> world = find_unaimed(name_or_file, of_world);
+  if (!world || (goal.states.empty() && goal.rewards.empty())) return world;
+  Parameters all = world->parameters;
+  for (const auto& one : parameters) {
+    if (one.first.starts_with("--")) all.push_back(one);
   }
-  if (!names_a_file(name_or_file)) {
-    Nearest nearest(name_or_file);
-    for (const WorldEntry* const entry : worlds()) {
-      nearest.offer(entry->name);
-      for (const std::string_view alias : split(entry->aliases, ' ')) {
-        if (!alias.empty()) nearest.offer(parse_alias(alias).name);
-      }
-    }
-    return Error{"", 0, 0,
-                 "no world '" + name_or_file +
-                     "'; a built-in name (see 'quoll list worlds') or a file expected",
-                 nearest.best()};
-  }
-  Result<Mdp> mdp = read_model(name_or_file, parameters);
-  if (!mdp) return mdp.error();
-  World world = to_world(stem(name_or_file), std::move(*mdp));
-  world.parameters = merged({}, parameters);
+  world = aimed(*std::move(world), goal);
+  if (world) world->parameters = std::move(all);
   return world;
 }
 

@@ -60,10 +60,18 @@ std::vector<std::uint32_t> moves_from(const Mdp& mdp, std::span<const State> fro
 }
 
 std::vector<std::uint32_t> moves_to_end(const Mdp& mdp) {
+  std::vector<State> ends;
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (mdp.terminal(s)) ends.push_back(s);
+  }
+  return moves_to(mdp, ends);
+}
+
+std::vector<std::uint32_t> moves_to(const Mdp& mdp, std::span<const State> targets) {
   std::vector<std::uint32_t> moves(mdp.states(), unreached);
   std::vector<State> queue;
-  for (State s = 0; s < mdp.states(); ++s) {
-    if (!mdp.terminal(s)) continue;
+  for (const State s : targets) {
+    if (moves[s] == 0) continue;
     moves[s] = 0;
     queue.push_back(s);
   }

@@ -20,6 +20,8 @@ std::vector<bool> can_end(const Mdp& mdp);
 /// unreached = no way. Cost: one reverse breadth-first search, 12 bytes per state, 4 per outcome.
 inline constexpr std::uint32_t unreached = std::numeric_limits<std::uint32_t>::max();
 std::vector<std::uint32_t> moves_to_end(const Mdp& mdp);
+/// The same to the nearest of these states; ends are not left.
+std::vector<std::uint32_t> moves_to(const Mdp& mdp, std::span<const State> targets);
 /// Number of moves on the shortest way from any of `from`, per state.
 std::vector<std::uint32_t> moves_from(const Mdp& mdp, std::span<const State> from);
 

@@ -10,8 +10,6 @@
 
 namespace quoll {
 
-namespace {
-
 std::string some_names(const Mdp& mdp, const std::vector<State>& states) {
   constexpr std::size_t shown = 10;
   std::string text;
@@ -21,8 +19,6 @@ std::string some_names(const Mdp& mdp, const std::vector<State>& states) {
   if (states.size() > shown) text += " and " + std::to_string(states.size() - shown) + " more";
   return text;
 }
-
-}  // namespace
 
 Result<double> discount_in_use(const Mdp& mdp, const SolveSettings& settings) {
   const double discount = settings.discount.value_or(mdp.discount());

@@ -20,6 +20,9 @@ std::unique_ptr<Solver> make_label_setting();
 std::unique_ptr<Solver> make_backward_induction();
 std::unique_ptr<Solver> make_game_iteration();
 
+/// The names of the first ten of these states, and how many more there are.
+std::string some_names(const Mdp& mdp, const std::vector<State>& states);
+
 /// The discount in use: the settings' or the model's own. Error if outside (0, 1].
 Result<double> discount_in_use(const Mdp& mdp, const SolveSettings& settings);
 /// The same for methods of one player: Error for models where two move in turn.

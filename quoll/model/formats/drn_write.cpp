@@ -61,12 +61,13 @@ Result<std::string> write_drn(const Mdp& mdp) {
     rewards.push_back(&other.reward);
   }
   text += "\n@nr_states\n" + std::to_string(mdp.states()) + "\n@nr_choices\n" +
-          std::to_string(std::max<std::uint64_t>(mdp.choices(), 1)) + "\n@model\n";
+          std::to_string(std::max<std::uint64_t>(written_sizes(mdp).choices, 1)) + "\n@model\n";
   const std::vector<std::string> words = labels_of_states(mdp);
   const bool named = !states_are_numbered(mdp);
   for (State s = 0; s < mdp.states(); ++s) {
     text += "state " + std::to_string(s) + words[s] + "\n";
     if (named) text += name_comment(mdp.state_name(s));
+    if (mdp.terminal(s)) continue;
     for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
       text += "\taction " + as_word(mdp.action_name(c));
       for (std::size_t i = 0; i < rewards.size(); ++i) {

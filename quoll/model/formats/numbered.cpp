@@ -105,6 +105,16 @@ bool states_are_numbered(const Mdp& mdp) {
   return true;
 }
 
+WrittenSizes written_sizes(const Mdp& mdp) {
+  WrittenSizes sizes;
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (mdp.terminal(s)) continue;
+    sizes.choices += mdp.actions(s);
+    sizes.outcomes += mdp.outcome_begin(mdp.choice_end(s)) - mdp.outcome_begin(mdp.choice_begin(s));
+  }
+  return sizes;
+}
+
 std::string given_name(const Mdp& mdp, State state, std::uint64_t choice) {
   std::string name = mdp.action_name(choice);
   if (name == std::to_string(choice - mdp.choice_begin(state))) return "";

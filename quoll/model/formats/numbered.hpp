@@ -78,6 +78,13 @@ std::vector<std::pair<std::string_view, std::string_view>> valuation(std::string
 /// Whether the model's names of states are nothing but their numbers: then files need none.
 bool states_are_numbered(const Mdp& mdp);
 
+/// How much of a model its files have: what its ends could do counts for nothing and is left out,
+/// because to model checkers a state with choices is no end.
+struct WrittenSizes {
+  std::uint64_t choices = 0, outcomes = 0;
+};
+WrittenSizes written_sizes(const Mdp& mdp);
+
 /// The name a file has to give a choice, "" if it is its number.
 std::string given_name(const Mdp& mdp, State state, std::uint64_t choice);
 

@@ -32,6 +32,9 @@ Result<MdpArrays> read_prism_parts(Lines& transitions, const std::string& path,
 Result<std::vector<PrismPart>> prism_parts(const std::string& path, const Parameters& given,
                                            bool look_beside);
 
+/// Refuses to write these files where a reader would take another file for one of theirs.
+Result<void> no_strangers_beside(const std::string& path, const std::vector<WrittenFile>& files);
+
 /// One pass over a file of states, labels or rewards into the arrays, which are complete but for
 /// them.
 Result<void> read_prism_states(PrismPart& part, MdpArrays& arrays);

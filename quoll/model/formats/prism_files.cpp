@@ -158,6 +158,16 @@ Result<std::vector<PrismPart>> prism_parts(const std::string& path, const Parame
   return parts;
 }
 
+Result<void> no_strangers_beside(const std::string& path, const std::vector<WrittenFile>& files) {
+  for (const Found& one : beside(path)) {
+    const bool ours = std::any_of(files.begin(), files.end(),
+                                  [&](const WrittenFile& file) { return file.path == one.path; });
+    if (ours) continue;
+    return Error{one.path, 0, 0, "exists already and would be read as part of " + path, ""};
+  }
+  return {};
+}
+
 std::vector<ParameterText> prism_parameters() {
   return parameters_of<PrismSettings>();
 }

@@ -8,15 +8,18 @@
 #include "quoll/base/text.hpp"
 #include "quoll/model/formats/format.hpp"
 #include "quoll/model/formats/numbered.hpp"
+#include "quoll/model/formats/prism.hpp"
 #include "quoll/model/formats/words.hpp"
 
 namespace quoll {
 namespace {
 
 std::string transitions(const Mdp& mdp) {
-  std::string text = std::to_string(mdp.states()) + " " + std::to_string(mdp.choices()) + " " +
-                     std::to_string(mdp.outcomes()) + "\n";
+  const WrittenSizes sizes = written_sizes(mdp);
+  std::string text = std::to_string(mdp.states()) + " " + std::to_string(sizes.choices) + " " +
+                     std::to_string(sizes.outcomes) + "\n";
   for (State s = 0; s < mdp.states(); ++s) {
+    if (mdp.terminal(s)) continue;
     for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
       const std::string front =
           std::to_string(s) + " " + std::to_string(c - mdp.choice_begin(s)) + " ";
@@ -85,6 +88,7 @@ class RewardWriter {
   bool of_states() const {
     if (!rewards_.outcome.empty()) return false;
     for (State s = 0; s < mdp_.states(); ++s) {
+      if (mdp_.terminal(s)) continue;
       for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
         if (rewards_.reward[c] != rewards_.reward[mdp_.choice_begin(s)]) return false;
       }
@@ -99,19 +103,20 @@ class RewardWriter {
     std::uint64_t count = 0;
     const bool states = of_states();
     for (State s = 0; s < mdp_.states(); ++s) {
+      if (mdp_.terminal(s)) continue;
       if (states)
         add_state(s, rows, count);
       else
         add_transitions(s, rows, count);
     }
     return header + (states ? "\n# State rewards\n" : "\n# Transition rewards\n") +
-           std::to_string(mdp_.states()) + (states ? "" : " " + std::to_string(mdp_.choices())) +
-           " " + std::to_string(count) + "\n" + rows;
+           std::to_string(mdp_.states()) +
+           (states ? "" : " " + std::to_string(written_sizes(mdp_).choices)) + " " +
+           std::to_string(count) + "\n" + rows;
   }
 
  private:
   void add_state(State s, std::string& rows, std::uint64_t& count) const {
-    if (mdp_.actions(s) == 0) return;
     const double reward = rewards_.reward[mdp_.choice_begin(s)];
     if (reward == 0.0) return;
     rows += std::to_string(s) + " " + shortest(reward) + "\n";
@@ -189,6 +194,8 @@ Result<std::vector<WrittenFile>> write_prism(const Mdp& mdp, const std::string& 
   if (!states_are_numbered(mdp)) files.push_back({stem + ".sta", states(mdp)});
   files.push_back({stem + ".lab", labels(mdp)});
   add_rewards(mdp, stem, files);
+  const Result<void> alone = no_strangers_beside(path, files);
+  if (!alone) return alone.error();
   return files;
 }
 

@@ -84,8 +84,9 @@ class Reader {
   explicit Reader(const std::string& path) : path_(path) {}
 
   Result<MdpArrays> read(const toml::table& file) {
-    static constexpr std::array<std::string_view, 8> keys{
-        "name", "discount", "alternating", "start", "terminal", "reward", "actions", "states"};
+    static constexpr std::array<std::string_view, 9> keys{"name",    "discount", "alternating",
+                                                          "start",   "terminal", "reward",
+                                                          "actions", "labels",   "states"};
     if (known_keys(file, keys)) {
       if (const toml::node* name = file.get("name")) text(*name, "a name in quotes");
       a_.discount = number(file.get("discount"), 1.0);
@@ -95,6 +96,7 @@ class Reader {
       states(file.get("states"));
       terminal(file.get("terminal"));
       start(file.get("start"));
+      labels(file.get("labels"));
     }
     if (failed_) return error_;
     for (const std::string& name : state_names_) a_.state_names.push_back(name);
@@ -287,6 +289,20 @@ class Reader {
     if (node == nullptr || failed_) return;
     a_.terminal = listed(*node, "a list of states");
     std::sort(a_.terminal.begin(), a_.terminal.end());
+  }
+
+  void labels(const toml::node* node) {
+    if (node == nullptr || failed_) return;
+    if (node->as_table() == nullptr) {
+      fail(*node, "expected labels with their states, for example goal = [\"CAVE\"]");
+      return;
+    }
+    for (const Entry& entry : in_order(*node->as_table())) {
+      check_name(entry.key, entry.at);
+      Label label{std::string(entry.key), listed(*entry.value, "a list of states")};
+      std::sort(label.states.begin(), label.states.end());
+      a_.labels.push_back(std::move(label));
+    }
   }
 
   // One state or a list of different ones.

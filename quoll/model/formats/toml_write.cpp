@@ -179,6 +179,15 @@ Result<std::string> write_toml(const Mdp& mdp) {
     if (i + 1 == terminal.size()) text += "]\n";
   }
   text += action_order(mdp);
+  const std::vector<Label>& labels = mdp.arrays().labels;
+  if (!labels.empty()) text += "\n[labels]\n";
+  for (const Label& label : labels) {
+    text += toml_key(label.name) + " = [";
+    for (std::size_t i = 0; i < label.states.size(); ++i) {
+      text += (i > 0 ? ", " : "") + toml_string(mdp.state_name(label.states[i]));
+    }
+    text += "]\n";
+  }
   for (State s = 0; s < mdp.states(); ++s) {
     text += "\n[states." + toml_key(mdp.state_name(s)) + "]\n";
     for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {

@@ -122,7 +122,7 @@ TEST(Toml, ErrorsNameThePlaceAndTheNearestName) {
             "w.toml:3:11: no state 'CAEV'; did you mean 'CAVE'?");
   EXPECT_EQ(refusal("dicount = 0.9\n[states.A]\n"),
             "w.toml:1:1: unknown key 'dicount', expected name, discount, alternating, start, "
-            "terminal, reward, actions or states; did you mean 'discount'?");
+            "terminal, reward, actions, labels or states; did you mean 'discount'?");
   EXPECT_EQ(refusal("[states.A]\ngo = { to = \"A\", rewrd = 1 }\n"),
             "w.toml:2:18: unknown key 'rewrd', expected to, probability or reward; "
             "did you mean 'reward'?");
