@@ -119,7 +119,7 @@ std::string accepted_text(const Checked& checked) {
       certificate.maximise ? "largest reward" : "least cost",
       certificate.method.empty() ? "the certificate" : certificate.method, start_text(proof));
   if (proof.gap == 0.0) {
-    text += "the policy is optimal";
+    text += proof.silent == 0 ? "the policy is optimal" : "the policy loses nothing";
   } else if (proof.gap == unbounded) {
     text += "what the policy can lose has no bound";
   } else {
@@ -127,7 +127,8 @@ std::string accepted_text(const Checked& checked) {
   }
   if (proof.gap > 0.0) text += " (at " + checked.mdp().state_name(proof.widest) + ")";
   if (proof.silent > 0)
-    text += fmt::format("; of {} nothing is claimed", counted(proof.silent, "state"));
+    text +=
+        fmt::format(", apart from {} of which nothing is claimed", counted(proof.silent, "state"));
   text += "\n";
   if (!checked.same_model) {
     text += "the certificate was written for another model, but what it says holds for this one\n";
