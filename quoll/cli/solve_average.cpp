@@ -20,6 +20,13 @@ struct AverageAnswer {
   double seconds;
 
   Interval start() const { return start_value(task.mdp, solution.lower, solution.upper); }
+  // Around 0, what rounding leaves of it is shown as 0.
+  std::string text(Interval gain) const {
+    const auto [low, high] = task.mdp.reward_bounds();
+    const double noise = 1e-12 * std::max(std::fabs(low), std::fabs(high));
+    if (std::fabs(gain.lower) <= noise && std::fabs(gain.upper) <= noise) return "0";
+    return interval_text(gain);
+  }
   bool multichain() const { return solution.structure == ChainStructure::multichain; }
 };
 
@@ -94,7 +101,7 @@ std::string state_table(const AverageAnswer& answer, bool all) {
     std::vector<std::string> row{mdp.state_name(s)};
     const double doubt = 10.0 * solution.gap;  // what is smaller than it is noise around 0
     if (many) {
-      row.push_back(interval_text({solution.lower[s], solution.upper[s]}));
+      row.push_back(answer.text({solution.lower[s], solution.upper[s]}));
       const std::uint32_t k = solution.part[s];
       row.push_back(k == no_component ? "-" : std::to_string(k));
     }
@@ -134,7 +141,7 @@ std::string class_lines(const AverageAnswer& answer, bool all) {
       fmt::format("multichain: {} classes in which one can stay for ever\n", classes.size());
   for (std::uint32_t k = 0; k < shown; ++k) {
     text += fmt::format("  class {}: {}{}: gain {}{}\n", k, classes[k].ends ? "the ends, " : "",
-                        members(answer, k), interval_text({classes[k].lower, classes[k].upper}),
+                        members(answer, k), answer.text({classes[k].lower, classes[k].upper}),
                         classes[k].stays ? "" : ", left by the best policy");
   }
   if (shown < classes.size()) text += fmt::format("  ... and {} more\n", classes.size() - shown);
@@ -171,7 +178,7 @@ std::string average_text(const AverageAnswer& answer, bool all) {
                   sizes_text(task.mdp), task.minimise ? "least cost" : "largest reward", method);
   const auto grid = grid_page(task.mdp, solution.bias, solution.policy, stdout_style(), all);
   text += grid ? *grid : state_table(answer, all);
-  text += "gain " + interval_text(answer.start()) + " per step";
+  text += "gain " + answer.text(answer.start()) + " per step";
   text += solution.converged ? ", certified: this policy loses no more than "
                              : ", not as close as asked: this policy may lose up to ";
   text += number_text(solution.gap);

@@ -252,7 +252,10 @@ class Averaging {
     }
     for (State s = 0; s < mdp_.states(); ++s) {
       const std::uint32_t k = out_.part[s];
-      if (k != no_component && out_.classes[k].stays) continue;
+      if (k != no_component && out_.classes[k].stays) {
+        out_.lower[s] = std::max(out_.lower[s], out_.classes[k].lower);
+        continue;
+      }
       out_.bias[s] = std::numeric_limits<double>::quiet_NaN();
     }
     return move_to(leaving);
