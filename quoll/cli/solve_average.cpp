@@ -147,7 +147,7 @@ std::string class_lines(const AverageAnswer& answer, bool all) {
   if (shown < classes.size()) text += fmt::format("  ... and {} more\n", classes.size() - shown);
   if (classes.back().ends) {
     text +=
-        "what is earned before an end counts nothing in endless time; without --average it does\n";
+        "what is earned before an end does not count in endless time; without --average it does\n";
   }
   return text;
 }
