@@ -310,14 +310,12 @@ Exit solve(const SolveOptions& options) {
   if (const Result<void> fits = check_form(options, *world); !fits) return fail(fits.error());
   catch_interrupts();
   if (asked.horizon > 0 || asked.average) {
-    if (!options.certificate.empty()) {
-      return fail({"--certificate", 0, 0,
-                   "expected without --horizon and --average, which have no certificates as files",
-                   ""});
-    }
+    const std::string_view proof = options.exact                  ? "--exact"
+                                   : !options.certificate.empty() ? "--certificate"
+                                                                  : "";
     return solve_task({*world, *world->mdp, options.output, options.world.name, asked.discount,
                        asked.tolerance, tolerance_given(options, asked), asked.method,
-                       asked.minimise, options.exact, options.threads, seconds_load},
+                       asked.minimise, proof, options.threads, seconds_load},
                       asked.horizon, asked.average);
   }
   Result<Solved> result = answer(options, asked, *world, seconds_load);

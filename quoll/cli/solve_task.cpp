@@ -13,7 +13,9 @@ Exit solve_task(const SolveTask& task, std::uint64_t horizon, bool average) {
     return fail({"--horizon", 0, 0, "--average asks for endless time: give one of the two", ""});
   }
   const std::string flag = average ? "--average" : "--horizon";
-  if (task.exact) return fail({"--exact", 0, 0, flag + " has no answer in fractions", ""});
+  if (!task.proof.empty()) {
+    return fail({std::string(task.proof), 0, 0, "cannot be had with " + flag, ""});
+  }
   const std::string& file = task.output.file;
   if (file.ends_with(".csv") || file.ends_with(".yaml")) {
     return fail({"-o", 0, 0,

@@ -28,7 +28,7 @@ struct SolveTask {
   bool tolerance_given = false;  ///< else also 1e-12 of the largest value will do
   std::string method;
   bool minimise = false;
-  bool exact = false;  ///< fractions were asked for
+  std::string_view proof;  ///< the flag of a proof that was asked for, and is for other answers
   unsigned threads = 0;
   double seconds_load = 0.0;
 };
