@@ -312,11 +312,17 @@ Result<void> check_words(const ExplainOptions& options) {
 Exit explain(const ExplainOptions& options) {
   const Result<World> world = options.world.open(options.how);
   if (!world) return fail(world.error());
-  if (!world->mdp) {
-    return fail({"explain", 0, 0, "the model of " + world->name + " is not known", ""});
-  }
   const Result<void> fits = check_words(options);
   if (!fits) return fail(fits.error());
+  if (!world->mdp) {
+    if (!options.state.empty() && !options.run.empty()) {
+      return explain_learned(*world, {options.state, options.run, 0.0}, options.output);
+    }
+    return fail({"explain", 0, 0,
+                 "the model of " + world->name + " is not known" +
+                     (world->traits.states > 0 ? ": give --state STATE --run FILE" : ""),
+                 ""});
+  }
   if (!options.state.empty()) {
     LearnSettings settings;
     const Result<void> applied = options.how.apply(settings_of(settings));

@@ -10,6 +10,7 @@
 #include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/policy_file.hpp"
 #include "quoll/cli/verbs.hpp"
+#include "quoll/env/listed.hpp"
 #include "quoll/report/export_map.hpp"
 #include "quoll/report/export_policy.hpp"
 
@@ -58,14 +59,18 @@ Result<const Target*> find_target(const ExportOptions& options) {
                nearest.best()};
 }
 
+std::string learned_by(const Run& run) {
+  const LearnSettings& learn = run.settings().learn;
+  const Training& first = run.trainings().front();
+  return fmt::format("Learned by {}, rule {}, discount {}, seed {}, {} steps.", learn.method,
+                     learn.rule, shortest(run.discount()), first.seed(),
+                     grouped(first.learner().progress().steps));
+}
+
 /// What the head of the file says about the policy.
 Result<std::vector<std::string>> origin(const Run& run, const JudgedRun& judged) {
   const JudgedSeed& seed = judged.seeds.front();
-  const LearnSettings& learn = run.settings().learn;
-  std::vector<std::string> lines;
-  lines.push_back(fmt::format("Learned by {}, rule {}, discount {}, seed {}, {} steps.",
-                              learn.method, learn.rule, shortest(run.discount()), seed.seed,
-                              grouped(seed.steps)));
+  std::vector<std::string> lines{learned_by(run)};
   const Optimality& judgement = seed.optimality;
   const std::string_view answer = !judgement.optimal   ? "not decided"
                                   : *judgement.optimal ? "yes"
@@ -93,11 +98,10 @@ Result<Exported> exported(const ExportOptions& options, const Target& target) {
   if (!run) return run.error();
   const std::string reason = unsound(*run);
   if (!reason.empty()) return Error{file, 0, 0, "not exported: " + reason, ""};
-  if (!run->world().mdp) {
-    return Error{file, 0, 0, "the states of " + run->world().name + " cannot be listed", ""};
-  }
+  const Result<std::shared_ptr<const Mdp>> states = listed(run->world());
+  if (!states) return Error{file, 0, 0, states.error().expected, ""};
   PolicyExport policy;
-  policy.mdp = run->world().mdp.get();
+  policy.mdp = states->get();
   policy.name = options.name.empty() ? run->world().name : options.name;
   const Result<JudgedRun> judged = judge_run(*run, 1);
   std::vector<Action> actions;
@@ -108,7 +112,9 @@ Result<Exported> exported(const ExportOptions& options, const Target& target) {
     policy.origin = *lines;
   } else {
     actions = greedy_policy(run->trainings().front().learner().estimates());
-    policy.origin = {"No certificate: " + message(judged.error())};
+    policy.origin = {learned_by(*run), run->world().mdp
+                                           ? "No certificate: " + message(judged.error()) + "."
+                                           : "No certificate: the model is not known."};
   }
   policy.policy = actions;
   Result<std::string> text = target.write(policy);

@@ -148,6 +148,7 @@ Result<Picture> picture(const Exhibit& exhibit, const std::string& kind, const s
 Result<std::string> checked_kind(const ShowOptions& options, const World& world) {
   if (options.kind.empty()) {
     if (world.mdp) return kind_for(*world.mdp);
+    if (world.traits.states > 0 && !options.run.empty()) return std::string("q");
     return Error{"show", 0, 0, "the model of " + world.name + " is not known", ""};
   }
   if (std::find(std::begin(kinds), std::end(kinds), options.kind) == std::end(kinds)) {
@@ -160,6 +161,14 @@ Result<std::string> checked_kind(const ShowOptions& options, const World& world)
                  "a curve needs a run: quoll learn " + options.world.name +
                      " --save FILE, then quoll show " + options.world.name + " curve --run FILE",
                  ""};
+  }
+  if (!world.mdp && !options.run.empty() && options.kind != "curve") {
+    if (options.kind == "graph" || options.kind == "map" || !options.file.empty()) {
+      return Error{"show", 0, 0,
+                   "the model of " + world.name +
+                       " is not known: its runs show q and policy as text, and a curve",
+                   ""};
+    }
   }
   return options.kind;
 }
@@ -197,7 +206,11 @@ Exit show(const ShowOptions& options) {
                    "the saved run learns " + run->source().name + ", not " + options.world.name,
                    ""});
     }
-    return present(learned_exhibit(*run), options, *kind);
+    const Exhibit exhibit = learned_exhibit(*run);
+    if (exhibit.mdp == nullptr && *kind != "curve") {
+      return fail({"show", 0, 0, "the states of " + world->name + " cannot be listed", ""});
+    }
+    return present(exhibit, options, *kind);
   }
   if (!world->mdp) {
     return fail({"show", 0, 0, "the model of " + world->name + " is not known: give --run", ""});

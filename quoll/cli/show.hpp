@@ -15,6 +15,7 @@ struct Exhibit {
   std::string name;  ///< of the world, as a file name takes it
   std::string title;
   const Mdp* mdp = nullptr;
+  std::shared_ptr<const Mdp> states{};  ///< what mdp points to where no model is known
   std::vector<double> value;          ///< per state; nan = not known
   std::vector<double> q;              ///< per choice
   std::vector<double> q_star;         ///< per choice, beside learned values; may be empty

@@ -8,6 +8,7 @@
 #include "quoll/base/text.hpp"
 #include "quoll/cli/learn_report.hpp"
 #include "quoll/cli/show.hpp"
+#include "quoll/env/listed.hpp"
 #include "quoll/solve/solver.hpp"
 
 namespace quoll::cli {
@@ -99,14 +100,17 @@ Exhibit learned_exhibit(const Run& run) {
       learn.rule == "standard" ? "" : " " + learn.rule, shortest(run.discount()), first.seed(),
       grouped(first.learner().progress().steps));
   for (const Training& training : run.trainings()) exhibit.curves.push_back(curve_of(training));
-  if (!world.mdp) return exhibit;
-  exhibit.mdp = world.mdp.get();
+  const Result<std::shared_ptr<const Mdp>> states = listed(world);
+  if (!states) return exhibit;
+  exhibit.states = *states;
+  exhibit.mdp = exhibit.states.get();
   const Estimates estimates = first.learner().estimates();
   exhibit.q = estimates.q;
   exhibit.visits = estimates.visits;
   exhibit.q_is_float = estimates.single_precision;
   exhibit.policy = greedy_policy(estimates);
   be_greedy(exhibit);
+  if (!world.mdp) return exhibit;
   const Result<Solution> exact = solved(*world.mdp, run.discount());
   if (exact) exhibit.q_star = q_star_all(*world.mdp, *exact, run.discount());
   return exhibit;

@@ -1,5 +1,8 @@
 #include "quoll/env/binned.hpp"
 
+#include <charconv>
+#include <cmath>
+
 #include "quoll/base/text.hpp"
 
 namespace quoll {
@@ -17,6 +20,15 @@ Error not_bins(std::string_view text, const std::vector<Measured>& numbers,
           counted(numbers.size(), "whole number") + " from 1 up (" + names + ") expected, not '" +
               std::string(text) + "'" + found,
           ""};
+}
+
+std::string digits(double value) {
+  constexpr int kept = 4;
+  char text[32];
+  const double whole = std::fabs(value) < 1e-12 ? 0.0 : value;
+  const auto end =
+      std::to_chars(text, text + sizeof text, whole, std::chars_format::general, kept).ptr;
+  return {text, end};
 }
 
 }  // namespace
@@ -54,6 +66,19 @@ State Bins::number(std::span<const float> observation) const {
     state = state * count + bin;
   }
   return state;
+}
+
+std::string Bins::name(State state) const {
+  std::string text;
+  for (std::size_t i = cuts_.size(); i-- > 0;) {
+    const auto& [low, per_unit, count] = cuts_[i];
+    const State bin = state % count;
+    state /= count;
+    const std::string from = bin > 0 ? digits(low + bin / per_unit) : "";
+    const std::string to = bin + 1 < count ? digits(low + (bin + 1) / per_unit) : "";
+    text = from + ".." + to + (text.empty() ? "" : " ") + text;
+  }
+  return text;
 }
 
 }  // namespace quoll

@@ -38,6 +38,9 @@ class Bins {
   State states() const { return states_; }
   /// The state of an observation of as many numbers; nan falls into the first bin.
   State number(std::span<const float> observation) const;
+  /// Between which values the numbers lie, in their order, to four digits: "-0.8..0 0..1.5 ..-3"; a
+  /// first bin has no lower end, a last one no upper.
+  std::string name(State state) const;
 
  private:
   struct Cut {
@@ -96,7 +99,11 @@ Result<World> to_world(std::string name, D dynamics, WorldFacts facts, const std
   Result<Bins> parsed = Bins::parse(bins, dynamics.measured());
   if (!parsed) return parsed.error();
   facts.traits.deterministic = false;
-  return to_world(std::move(name), Binned<D>{std::move(dynamics), std::move(*parsed)}, facts);
+  const auto state_name = [bins = *parsed](State state) { return bins.name(state); };
+  World world =
+      to_world(std::move(name), Binned<D>{std::move(dynamics), std::move(*parsed)}, facts);
+  world.state_name = state_name;
+  return world;
 }
 
 }  // namespace quoll

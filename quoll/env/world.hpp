@@ -36,6 +36,8 @@ struct World {
   std::uint64_t episode_steps = 0;        ///< the world's own step limit; 0 = none
   std::shared_ptr<const Mdp> mdp;         ///< the model, or null when it is not known
   std::vector<std::string> action_names;  ///< of worlds without a model; empty = numbers
+  /// What the numbered states of a world without a model are called; empty = their numbers.
+  std::function<std::string(State)> state_name;
   /// Environments in one; never null.
   std::function<std::unique_ptr<Environment>(Lanes)> make;
 };

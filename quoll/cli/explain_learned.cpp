@@ -1,0 +1,82 @@
+// explain --state --run of a world without a model: what was learned about one state.
+
+#include <fmt/format.h>
+
+#include "quoll/base/text.hpp"
+#include "quoll/cli/explain.hpp"
+#include "quoll/env/listed.hpp"
+#include "quoll/report/json.hpp"
+
+namespace quoll::cli {
+namespace {
+
+struct Known {
+  const Mdp& states;
+  State state;
+  Estimates estimates;
+  Action greedy;
+  const Run& run;
+};
+
+std::string text_of(const Known& known) {
+  const Mdp& states = known.states;
+  const Training& first = known.run.trainings().front();
+  std::string text = fmt::format(
+      "explain {}   state {}, discount {}\n\nThe model is not known, so there is no exact value. "
+      "Learned:\n",
+      known.run.world().name, states.state_name(known.state), number_text(known.run.discount()));
+  TextTable table({{"move"},
+                   {"learned Q", TextTable::Align::point},
+                   {"visits", TextTable::Align::right},
+                   {""}});
+  for (Action a = 0; a < states.actions(known.state); ++a) {
+    const std::uint64_t c = states.choice_begin(known.state) + a;
+    table.row({states.action_name(c), number_text(known.estimates.q[c]),
+               grouped(known.estimates.visits[c]), a == known.greedy ? "<- greedy" : ""});
+  }
+  return text + table.text() +
+         fmt::format("\nLearned Q: rule {}, seed {}, after {} steps.\n",
+                     known.run.settings().learn.rule, first.seed(),
+                     grouped(first.learner().progress().steps));
+}
+
+std::string json_of(const Known& known) {
+  const Mdp& states = known.states;
+  JsonWriter json(JsonStyle::pretty);
+  json.begin_object().member("world", known.run.world().name);
+  json.member("state", states.state_name(known.state)).member("discount", known.run.discount());
+  json.null_member("lower").null_member("upper");
+  json.key("actions").begin_array();
+  for (Action a = 0; a < states.actions(known.state); ++a) {
+    const std::uint64_t c = states.choice_begin(known.state) + a;
+    json.begin_object().member("action", states.action_name(c)).null_member("q_star");
+    json.null_member("optimal");
+    json.key("q").number(known.estimates.q[c], known.estimates.single_precision);
+    json.member("visits", known.estimates.visits[c]);
+    json.key("outcomes").begin_array().end_array().end_object();
+  }
+  json.end_array().key("way").begin_array().end_array().end_object();
+  return json.text() + "\n";
+}
+
+}  // namespace
+
+Exit explain_learned(const World& world, const StateQuestion& question,
+                     const OutputOption& output) {
+  const Result<std::shared_ptr<const Mdp>> states = listed(world);
+  if (!states) return fail({"explain", 0, 0, states.error().expected, ""});
+  World named = world;
+  named.mdp = *states;
+  const Result<State> state = parse_state(named, question.state, "--state");
+  if (!state) return fail(state.error());
+  const Result<Run> run = Run::load(question.run, false);
+  if (!run) return fail(run.error());
+  Known known{**states, *state, run->trainings().front().learner().estimates(), no_action, *run};
+  if (run->world().name != world.name || known.estimates.q.size() != (*states)->choices()) {
+    return fail({"--run", 0, 0, "the saved run does not learn this form of " + world.name, ""});
+  }
+  known.greedy = greedy_policy(known.estimates)[*state];
+  return print(output.json ? json_of(known) : text_of(known)) ? done : user_error;
+}
+
+}  // namespace quoll::cli
