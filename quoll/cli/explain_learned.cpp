@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "quoll/base/json.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/explain.hpp"
 #include "quoll/env/listed.hpp"
-#include "quoll/report/json.hpp"
 
 namespace quoll::cli {
 namespace {

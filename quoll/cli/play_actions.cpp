@@ -52,20 +52,26 @@ class UniformActions final : public Chooser {
 
 class TableActions final : public Chooser {
  public:
-  TableActions(std::string file, std::vector<Action> actions)
-      : file_(std::move(file)), policy_(std::move(actions)) {}
+  /// `guess` = a random action where the policy has none.
+  TableActions(std::string file, std::vector<Action> actions, bool guess, std::uint64_t seed)
+      : file_(std::move(file)), policy_(std::move(actions)), guess_(guess), random_(seed) {}
   Result<std::optional<Action>> choose(const Player& player) override {
     const Action action = policy_(player.now().number);
     if (action != no_action) return std::optional<Action>(action);
     if (player.actions() == 0) return std::optional<Action>();
+    if (guess_) return random_.choose(player);
     return Error{"--policy", 0, 0,
-                 "the policy has no action for the state " + json_text(player.now().state), ""};
+                 "the policy has no action for the state " + json_text(player.now().state) +
+                     "; --unknown random goes on by chance",
+                 ""};
   }
   std::string name() const override { return "policy " + file_; }
 
  private:
   std::string file_;
   TablePolicy policy_;
+  bool guess_;
+  UniformActions random_;
 };
 
 /// A line per action on stdin; asks on stderr when a person sits there.
@@ -106,6 +112,8 @@ class HandActions final : public Chooser {
 void ActionOptions::declare(Options& options) {
   options.option("--policy", &policy, "FILE|uniform",
                  "who decides: a .csv, .json or .quoll file, or uniform");
+  options.option("--unknown", &unknown, "stop | random",
+                 "with a policy: where it has no action stop, or take a random one [stop]");
   options.option("--actions", &actions, "A,B,...|@FILE",
                  "the actions to take, by name or number; without --policy and --actions they are "
                  "read from stdin, one a line");
@@ -137,6 +145,14 @@ Result<std::unique_ptr<Chooser>> chooser(const ActionOptions& options, const Wor
   if (!options.policy.empty() && options.actions) {
     return Error{"--actions", 0, 0, "a policy or actions expected, not both", ""};
   }
+  const bool guess = options.unknown == "random";
+  if (!options.unknown.empty() && !guess && options.unknown != "stop") {
+    return Error{"--unknown", 0, 0, "stop or random expected, not '" + options.unknown + "'",
+                 nearest(options.unknown, std::vector<std::string>{"stop", "random"})};
+  }
+  if (!options.unknown.empty() && (options.policy.empty() || options.policy == "uniform")) {
+    return Error{"--unknown", 0, 0, "has an effect only with --policy FILE", ""};
+  }
   if (options.actions) {
     const Result<std::string> text = text_or_file(*options.actions);
     if (!text) return text.error();
@@ -151,7 +167,7 @@ Result<std::unique_ptr<Chooser>> chooser(const ActionOptions& options, const Wor
   Result<std::vector<Action>> actions = read_policy(options.policy, world);
   if (!actions) return actions.error();
   return std::unique_ptr<Chooser>(
-      std::make_unique<TableActions>(options.policy, std::move(*actions)));
+      std::make_unique<TableActions>(options.policy, std::move(*actions), guess, seed));
 }
 
 }  // namespace quoll::cli

@@ -12,9 +12,10 @@
 
 namespace quoll::cli {
 
-/// --policy and --actions.
+/// --policy, --unknown and --actions.
 struct ActionOptions {
   std::string policy;
+  std::string unknown;  ///< what a policy does where it has no action; empty = stop
   std::optional<std::string> actions;
 
   void declare(Options& options);

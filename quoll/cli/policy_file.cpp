@@ -12,6 +12,7 @@
 #include "quoll/base/text.hpp"
 #include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/same_world.hpp"
+#include "quoll/env/listed.hpp"
 #include "quoll/experiment/run.hpp"
 #include "quoll/model/formats/fields.hpp"
 #include "quoll/model/formats/lines.hpp"
@@ -185,14 +186,13 @@ Result<std::vector<Action>> read_run_policy(const std::string& path, const World
 Result<std::vector<Action>> read_policy(const std::string& path, const World& world) {
   const std::string file = run_file(path);
   if (file.ends_with(".quoll")) return read_run_policy(file, world);
-  if (!world.mdp) {
-    return Error{
-        "--policy", 0, 0,
-        "uniform or a saved run (.quoll) expected: the model of " + world.name + " is not known",
-        ""};
+  const Result<std::shared_ptr<const Mdp>> states = listed(world);
+  if (!states) {
+    return Error{"--policy", 0, 0,
+                 "uniform or a saved run (.quoll) expected: " + states.error().expected, ""};
   }
-  if (file.ends_with(".csv")) return read_csv_policy(file, *world.mdp);
-  if (file.ends_with(".json")) return read_json_policy(file, *world.mdp);
+  if (file.ends_with(".csv")) return read_csv_policy(file, **states);
+  if (file.ends_with(".json")) return read_json_policy(file, **states);
   return Error{"--policy", 0, 0,
                "uniform or a file that ends in .csv, .json or .quoll expected, not '" + path + "'",
                nearest(path, std::vector<std::string>{"uniform"})};

@@ -9,8 +9,8 @@
 
 namespace quoll::cli {
 
-/// The action per state that a file gives; no_action where it says nothing. A world without a model
-/// takes saved runs only. By the file's name:
+/// The action per state that a file gives; no_action where it says nothing. A world whose states
+/// cannot be listed takes none. By the file's name:
 ///   .csv    header state,action, or x,y,state,move,cost as solve and export write of a map; one
 ///           row per state; an empty action = none
 ///   .json   what learn, solve and export write: a list "policy" or "values" with state and action
