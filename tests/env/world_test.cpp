@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../refusal.hpp"
 #include "quoll/env/worlds/adventure.hpp"
 #include "quoll/model/builder.hpp"
 
@@ -75,8 +76,7 @@ TEST(World, OffersWhatItSaysItOffers) {
 
 TEST(World, RefusesParametersWithoutEffect) {
   const auto refused = [](const std::string& name, const Parameters& parameters) {
-    const auto world = find_world(name, parameters);
-    return world ? "" : message(world.error());
+    return tests::refusal_of(find_world(name, parameters));
   };
   EXPECT_EQ(refused("taxi", {{"rainy_probability", "0.5"}}),
             "--with rainy_probability: has an effect only with rainy=true");

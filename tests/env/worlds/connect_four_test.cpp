@@ -15,9 +15,7 @@ namespace quoll::world_tests {
 namespace {
 
 World game(const Parameters& parameters = {}) {
-  Result<World> world = find_world("connect-four", parameters);
-  EXPECT_TRUE(world) << (world ? "" : message(world.error()));
-  return std::move(*world);
+  return made("connect-four", parameters);
 }
 
 Tree board(const std::string& text) {

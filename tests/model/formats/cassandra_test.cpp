@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../../refusal.hpp"
 #include "quoll/model/digest.hpp"
 #include "quoll/model/formats/format.hpp"
 
@@ -15,8 +16,7 @@ Mdp model(std::string_view text) {
 }
 
 std::string refusal(std::string_view text) {
-  const auto mdp = parse_model(text, "m.pomdp");
-  return mdp ? "" : message(mdp.error());
+  return tests::refusal_of(parse_model(text, "m.pomdp"));
 }
 
 // The outcomes of a choice: "next probability reward".

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "../../refusal.hpp"
 #include "quoll/model/digest.hpp"
 #include "quoll/model/formats/format.hpp"
 
@@ -13,8 +14,7 @@ Mdp model(std::string_view text) {
 }
 
 std::string refusal(std::string_view text) {
-  const auto mdp = parse_model(text, "P.json");
-  return mdp ? "" : message(mdp.error());
+  return tests::refusal_of(parse_model(text, "P.json"));
 }
 
 // 0 goes left to itself or right, slipping: 1 for sure but written twice. 1 is

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../../refusal.hpp"
 #include "quoll/model/formats/format.hpp"
 
 namespace quoll {
@@ -27,8 +28,7 @@ Mdp model(std::string_view text, const Parameters& given) {
 }
 
 std::string refusal(std::string_view text, const Parameters& given = {{"goal", "0,0"}}) {
-  const auto mdp = parse_model(text, "m.map", given);
-  return mdp ? "" : message(mdp.error());
+  return tests::refusal_of(parse_model(text, "m.map", given));
 }
 
 // The outcome of an action by name: "next reward".
@@ -192,8 +192,7 @@ TEST(Problems, AreReadLineByLine) {
   EXPECT_EQ(problem.goal_y, 3u);
   EXPECT_EQ(problem.length, 1.5);
   const auto why = [](std::string_view text) {
-    const auto wrong = parse_problems(text, "a.scen");
-    return wrong ? "" : message(wrong.error());
+    return tests::refusal_of(parse_problems(text, "a.scen"));
   };
   EXPECT_EQ(why(""), "a.scen: expected at least one problem");
   EXPECT_EQ(why("version 2\n"), "a.scen:1: expected version 1");

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../../refusal.hpp"
 #include "quoll/model/formats/format.hpp"
 
 namespace quoll {
@@ -54,8 +55,7 @@ std::string file_with(const std::string& content) {
 }
 
 std::string refusal(std::string_view content, const Parameters& given = {}) {
-  const auto mdp = parse_model(content, "P.bin", given);
-  return mdp ? "" : message(mdp.error());
+  return tests::refusal_of(parse_model(content, "P.bin", given));
 }
 
 TEST(Petsc, BothWidthsOfWholeNumbers) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../../refusal.hpp"
 #include "quoll/model/formats/format.hpp"
 
 namespace quoll {
@@ -67,8 +68,7 @@ TEST(RosMap, OtherSpellingsOfYaml) {
 
 TEST(RosMap, FaultsNameTheirPlace) {
   const auto why = [](std::string_view text) {
-    const auto map = parse_ros_map(text, "m.yaml");
-    return map ? "" : message(map.error());
+    return tests::refusal_of(parse_ros_map(text, "m.yaml"));
   };
   EXPECT_EQ(why(""), "m.yaml: expected the key image");
   EXPECT_EQ(why("image: a.pgm\n"), "m.yaml: expected the key resolution");
@@ -115,8 +115,7 @@ TEST(Pgm, BytesWordsAndText) {
 
 TEST(Pgm, FaultsNameTheirPlace) {
   const auto why = [](std::string_view text) {
-    const auto parsed = parse_pgm(text, "a.pgm");
-    return parsed ? "" : message(parsed.error());
+    return tests::refusal_of(parse_pgm(text, "a.pgm"));
   };
   EXPECT_EQ(why("P6 1 1 255\n..."), "a.pgm:1:1: expected a PGM image (P2 or P5)");
   EXPECT_EQ(why("P5\n0 1"), "a.pgm:2:2: expected a width in pixels");

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "../../refusal.hpp"
 #include "quoll/base/bytes.hpp"
 #include "quoll/model/digest.hpp"
 #include "quoll/model/formats/format.hpp"
@@ -76,8 +77,7 @@ Mdp model(const Parts& parts) {
 }
 
 std::string refusal(const Parts& parts) {
-  const auto mdp = parse_model(archive(parts), "m.umb");
-  return mdp ? "" : message(mdp.error());
+  return tests::refusal_of(parse_model(archive(parts), "m.umb"));
 }
 
 TEST(Umb, ArraysBecomeTheModel) {
