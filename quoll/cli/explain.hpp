@@ -39,8 +39,7 @@ struct StateQuestion {
   double discount = 0.0;  ///< 0 = the world's own, or the run's
 };
 /// Of a world without a model: what the run learned about the state.
-Exit explain_learned(const World& world, const StateQuestion& question,
-                     const OutputOption& output);
+Exit explain_learned(const World& world, const StateQuestion& question, const OutputOption& output);
 Exit explain_state(const WorldOption& option, const World& world, const StateQuestion& question,
                    const OutputOption& output);
 

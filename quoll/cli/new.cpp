@@ -109,7 +109,9 @@ Result<void> may_write(const NewOptions& options, const Kind& kind) {
 Exit make_new(const NewOptions& options) {
   const Result<const Kind*> kind = find_kind(options.kind);
   if (!kind) return fail(kind.error());
-  const Result<WorldSource> source = WorldOption{"", options.with}.source();
+  WorldOption world;
+  world.with = options.with;
+  const Result<WorldSource> source = world.source();
   if (!source) return fail(source.error());
   if (!options.file.empty()) {
     const Result<void> may = may_write(options, **kind);

@@ -16,12 +16,12 @@ struct Exhibit {
   std::string title;
   const Mdp* mdp = nullptr;
   std::shared_ptr<const Mdp> states{};  ///< what mdp points to where no model is known
-  std::vector<double> value;          ///< per state; nan = not known
-  std::vector<double> q;              ///< per choice
-  std::vector<double> q_star;         ///< per choice, beside learned values; may be empty
-  std::vector<std::uint32_t> visits;  ///< per choice; learned values only
-  std::vector<std::uint8_t> best;     ///< per choice: optimal, or greedy among the visited
-  std::vector<Action> policy;         ///< per state
+  std::vector<double> value;            ///< per state; nan = not known
+  std::vector<double> q;                ///< per choice
+  std::vector<double> q_star;           ///< per choice, beside learned values; may be empty
+  std::vector<std::uint32_t> visits;    ///< per choice; learned values only
+  std::vector<std::uint8_t> best;       ///< per choice: optimal, or greedy among the visited
+  std::vector<Action> policy;           ///< per state
   bool learned = false;
   bool q_is_float = false;
   std::vector<Curve> curves;  ///< one per seed of a run
