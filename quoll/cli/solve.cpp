@@ -329,8 +329,10 @@ Exit solve(const SolveOptions& options) {
     if (!written) return fail(written.error());
   }
   if (options.exact) {
+    catch_interrupts();
     auto exact =
         prove_exactly(solved.mdp(), solved.solution, !asked.minimise, options.output.quiet);
+    release_interrupts();
     if (!exact) return fail(exact.error());
     solved.exact = std::move(*exact);
     if (solved.exact) solved.solution.policy = solved.exact->policy;

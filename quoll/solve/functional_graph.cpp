@@ -241,6 +241,33 @@ bool raise_until_inductive(const Mdp& mdp, const Discount& discount, std::span<c
                          : add_constant(mdp, discount, order, upper);
 }
 
+bool lower_until_inductive(const Mdp& mdp, const Discount& discount, std::span<const Action> policy,
+                           std::span<const State> order, const std::vector<double>& upper,
+                           std::vector<double>& lower) {
+  const auto excess = [&](State s) {
+    const std::uint64_t c = mdp.choice_begin(s) + policy[s];
+    return add_up(lower[s], -backup_down(mdp.reward(c), discount, lower[mdp.next(c)]));
+  };
+  const auto largest_excess = [&] {
+    double largest = 0.0;
+    for (const State s : order) largest = std::max(largest, excess(s));
+    return largest;
+  };
+  if (discount.none()) return true;
+  const double largest = largest_excess();
+  if (!(largest > 0.0)) return true;
+  double size = 0.0;
+  for (const State s : order) size = std::max(size, std::fabs(lower[s]));
+  const double rest = next_down(1.0 - discount.upper);
+  if (!(rest > 0.0) || !(size < infinity)) return false;
+  const double first = next_up(largest / rest);
+  const double constant = next_up((largest + 0x1p-50 * (size + first)) / rest);
+  for (const State s : order) {
+    if (lower[s] < upper[s]) lower[s] = -add_up(-lower[s], constant);
+  }
+  return !(largest_excess() > 0.0);
+}
+
 std::optional<TwoRewards> two_rewards(const Mdp& mdp) {
   std::optional<double> move, end;
   for (State s = 0; s < mdp.states(); ++s) {

@@ -39,6 +39,14 @@ std::uint64_t improve_policy(const Mdp& mdp, const GraphValues& values, const Di
 bool raise_until_inductive(const Mdp& mdp, const Discount& discount, std::span<const State> order,
                            std::vector<double>& upper, unsigned sweeps = 64);
 
+/// Lowers `lower`, bounds on the policy's value, until T_pi lower >= lower holds with outward
+/// rounding in the states of `order`, by one constant in all states where it is below `upper`. Does
+/// nothing at discount 1, where a policy's bounds follow one from the other along its way to an
+/// end. False: not achieved; the bounds are true all the same.
+bool lower_until_inductive(const Mdp& mdp, const Discount& discount, std::span<const Action> policy,
+                           std::span<const State> order, const std::vector<double>& upper,
+                           std::vector<double>& lower);
+
 /// The rewards of a deterministic model that has only two: one for each move to a state that is no
 /// end, one for each move to an end. Such a model is solved by counting moves.
 struct TwoRewards {

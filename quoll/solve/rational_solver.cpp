@@ -27,6 +27,9 @@
 // it has not yet earned after n moves tends to 0. At discount 1 a policy that is improved from one
 // that ends can fail to end only if staying gains: then no value is defined.
 //
+// Where two players move in turn pi is both players' and g is negative: x = T x proves x again, but
+// switches of both at once need not come to rest.
+//
 // pi: out.policy, x: value_, g: model.carry(), r, P: model.
 
 namespace quoll {
@@ -92,6 +95,7 @@ class RationalIteration {
  private:
   enum class Kind : std::uint8_t { finite, endless, unknown };
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint64_t most_replies = 100;
 
   // Whether all that can follow has a finite value: endless states are worse than anything.
   bool usable(std::uint64_t c) const {
@@ -173,7 +177,9 @@ class RationalIteration {
       for (const State s : members) out_.policy[s] = ending_.policy[s];
       outcome = evaluate(members);
     }
+    std::uint64_t rounds = 0;
     while (outcome == RationalSystem::Outcome::solved && improve(members) > 0) {  // step 3
+      if (mdp_.alternating() && ++rounds > most_replies) return no_agreement(members[0]);
       outcome = evaluate(members);
     }
     for (const State s : members) place_[s] = none;
@@ -182,6 +188,13 @@ class RationalIteration {
     return Error{"--discount", 0, 0,
                  "at discount 1 no cycle may gain reward, but one of the component of state " +
                      mdp_.state_name(members[0]) + " does; a discount below 1 makes values finite",
+                 ""};
+  }
+
+  Error no_agreement(State s) const {
+    return Error{"--exact", 0, 0,
+                 "the two players' best replies around state " + mdp_.state_name(s) +
+                     " did not come to rest: a smaller --tolerance gives a better first policy",
                  ""};
   }
 
