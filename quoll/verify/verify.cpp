@@ -50,8 +50,9 @@ double sum_up(double a, double b) {
 double product_up(double a, double b) {
   const double product = a * b;
   if (!std::isfinite(product) || a == 0.0 || b == 0.0) return product;
-  const bool exact = std::fma(a, b, -product) == 0.0 && std::fabs(product) > 1e-280;
-  return exact ? product : above(product);
+  // What is missing up to a * b; tells the truth unless it is too small for a double itself.
+  const bool enough = std::fma(a, b, -product) <= 0.0 && std::fabs(product) > 1e-280;
+  return enough ? product : above(product);
 }
 
 double quotient_up(double a, double b) {

@@ -174,17 +174,18 @@ class Truth {
   bool gains() const { return gains_; }      // for ever: nothing is defined
   const Fraction& value(std::size_t s) const { return value_[s]; }
 
-  // Empty = the policy is not defined or does not end.
-  std::optional<std::vector<Fraction>> value_of(const std::vector<std::size_t>& policy) const {
+  // Of the states that are `asked` for. Empty = the policy does not end, or leads to others.
+  std::optional<std::vector<Fraction>> value_of(const std::vector<std::size_t>& policy,
+                                                const std::vector<bool>& asked) const {
     const std::size_t n = model_.states();
     std::vector<std::vector<Fraction>> a(n, std::vector<Fraction>(n + 1));
     for (std::size_t s = 0; s < n; ++s) {
       a[s][s] = 1;
-      if (s + 1 == n || !live_[s]) continue;
+      if (s + 1 == n || !asked[s]) continue;
       const Move& move = model_.moves[s][policy[s]];
       a[s][n] = move.reward;
       for (const auto& [next, p] : move.to) {
-        if (!live_[next]) return std::nullopt;
+        if (!asked[next]) return std::nullopt;
         a[s][next] = a[s][next] - model_.discount * p;
       }
     }
@@ -247,7 +248,7 @@ class Truth {
     if (policy_.empty()) policy_.assign(model_.states(), 0);
     for (bool switched = true; switched && !Fraction::overflown;) {
       switched = false;
-      const auto value = value_of(policy_);
+      const auto value = value_of(policy_, live_);
       if (!value) {
         gains_ = true;
         return;
@@ -300,10 +301,12 @@ struct Tally {
 void expect_truth(const Mdp& mdp, const Truth& truth, const Solution& found, bool minimise,
                   Tally& tally) {
   std::vector<std::size_t> policy(mdp.states(), 0);
+  std::vector<bool> asked(mdp.states(), true);  // where something is said of the policy
   for (State s = 0; s < mdp.states(); ++s) {
     if (found.policy[s] != no_action) policy[s] = found.policy[s];
+    asked[s] = (minimise ? -found.upper[s] : found.lower[s]) > -infinity;
   }
-  const auto earned = truth.value_of(policy);
+  const auto earned = truth.value_of(policy, asked);
   for (State s = 0; s + 1 < mdp.states(); ++s) {
     const double lower = minimise ? -found.upper[s] : found.lower[s];
     const double upper = minimise ? -found.lower[s] : found.upper[s];
