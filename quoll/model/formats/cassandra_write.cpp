@@ -1,6 +1,6 @@
-// Models in Cassandra's format: one line per outcome. Every state has every action there, ends stay
-// where they are, and names of another kind than the format's become numbers. A .pomdp observes the
-// state itself.
+// Models in Cassandra's format: one line per outcome. Every state has every action there: one that
+// is none of the state's does what its first one does. Ends stay where they are, and names of
+// another kind than the format's become numbers. A .pomdp observes the state itself.
 
 #include <algorithm>
 #include <cstdint>
@@ -75,25 +75,6 @@ std::vector<Outcome> joined(const Mdp& mdp, std::uint64_t c) {
   return out;
 }
 
-Error unfit(std::string why) {
-  return Error{"", 0, 0, std::move(why), ""};
-}
-
-// Every action of the model in every state, and nothing that only Quoll knows.
-Result<void> fits(const Mdp& mdp) {
-  if (mdp.alternating()) return unfit("this format holds no model of two players");
-  const std::uint64_t actions = mdp.arrays().action_names.size();
-  for (std::uint64_t i = 0; i < mdp.states(); ++i) {
-    const auto s = static_cast<State>(i);
-    if (!mdp.terminal(s) && mdp.actions(s) != actions) {
-      return unfit("state " + mdp.state_name(s) + ": all " + std::to_string(actions) +
-                   " actions in every state expected by this format, found " +
-                   std::to_string(mdp.actions(s)));
-    }
-  }
-  return {};
-}
-
 void write_start(std::string& out, const Mdp& mdp, const std::vector<std::string>& states) {
   const MdpArrays& a = mdp.arrays();
   if (a.start.size() == 1) {
@@ -127,9 +108,16 @@ void write_choice(std::string& out, const Mdp& mdp, std::uint64_t c, const std::
   }
 }
 
+// The choice of a state by an action; its first one if it has none such.
+std::uint64_t choice_by(const Mdp& mdp, State s, std::uint64_t action) {
+  for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
+    if (mdp.arrays().action[c] == action) return c;
+  }
+  return mdp.choice_begin(s);
+}
+
 Result<std::string> write(const Mdp& mdp, bool observed) {
-  const Result<void> fitting = fits(mdp);
-  if (!fitting) return fitting.error();
+  if (mdp.alternating()) return Error{"", 0, 0, "this format holds no model of two players", ""};
   std::string list;
   const std::vector<std::string> actions = written_names(mdp.arrays().action_names, list);
   std::string out = "discount: " + shortest(mdp.discount()) + "\nvalues: reward\nactions:" + list;
@@ -140,8 +128,8 @@ Result<std::string> write(const Mdp& mdp, bool observed) {
   for (std::uint64_t i = 0; i < mdp.states(); ++i) {
     const auto s = static_cast<State>(i);
     if (mdp.terminal(s)) out += "T: * : " + states[i] + " : " + states[i] + " 1\n";
-    for (std::uint64_t c = mdp.choice_begin(s); !mdp.terminal(s) && c < mdp.choice_end(s); ++c) {
-      write_choice(out, mdp, c, actions[mdp.arrays().action[c]], states, i, observed);
+    for (std::uint64_t a = 0; !mdp.terminal(s) && a < actions.size(); ++a) {
+      write_choice(out, mdp, choice_by(mdp, s, a), actions[a], states, i, observed);
     }
     if (observed) out += "O: * : " + states[i] + " : " + states[i] + " 1\n";
   }

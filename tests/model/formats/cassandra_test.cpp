@@ -173,14 +173,38 @@ TEST(Cassandra, ReadsBackWhatItWrites) {
   }
 }
 
-TEST(Cassandra, WhatItCannotHoldIsSaid) {
-  const auto some =
-      parse_model("[states.A]\non = \"B\"\noff = \"A\"\n[states.B]\noff = \"A\"\n", "m.toml");
-  ASSERT_TRUE(some);
+// B cannot go on: there "on" does what "off" does, and C stays where it is.
+TEST(Cassandra, EveryStateGetsEveryAction) {
+  const auto some = parse_model(
+      "discount = 0.5\n[states.A]\non = { to = \"B\", reward = 2 }\noff = \"C\"\n"
+      "[states.B]\noff = { to = \"A\", reward = 3 }\n[states.C]\n",
+      "m.toml");
+  ASSERT_TRUE(some) << message(some.error());
   const auto written = write_cassandra_mdp(*some);
-  ASSERT_FALSE(written);
-  EXPECT_EQ(written.error().expected,
-            "state B: all 2 actions in every state expected by this format, found 1");
+  ASSERT_TRUE(written);
+  const Mdp read = model(*written);
+  ASSERT_EQ(read.choices(), 6u);
+  EXPECT_EQ(outcomes(read, 0), "B 1.000 2.000");
+  EXPECT_EQ(outcomes(read, 1), "C 1.000 0.000");
+  EXPECT_EQ(outcomes(read, 2), "A 1.000 3.000");
+  EXPECT_EQ(outcomes(read, 3), "A 1.000 3.000");
+  EXPECT_EQ(outcomes(read, 5), "C 1.000 0.000");
+}
+
+TEST(Cassandra, TwoPlayersAreRefused) {
+  MdpArrays arrays;
+  arrays.choice_begin = {0, 1};
+  arrays.next = {0};
+  arrays.reward = {1};
+  arrays.action = {0};
+  arrays.discount = 0.5;
+  arrays.alternating = true;
+  arrays.state_names.push_back("s");
+  arrays.action_names.push_back("a");
+  const auto mdp = Mdp::make(arrays);
+  ASSERT_TRUE(mdp);
+  EXPECT_EQ(write_cassandra_mdp(*mdp).error().expected,
+            "this format holds no model of two players");
 }
 
 }  // namespace
