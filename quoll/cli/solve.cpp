@@ -116,14 +116,20 @@ std::string solve_json(const Solved& solved, bool all) {
   return json.text() + "\n";
 }
 
+std::string_view objective_text(const Solved& solved) {
+  if (!solved.shown_lower.empty()) {
+    return solved.asked.minimise ? "least probability" : "largest probability";
+  }
+  return solved.asked.minimise ? "least cost" : "largest reward";
+}
+
 std::string heading(const Solved& solved) {
   const Mdp& mdp = *solved.world.mdp;
   return fmt::format(
       "solve {}   {} states, {} choices, {}, discount {}, {}, method {}\n\n", solved.world.name,
       grouped(mdp.states()), grouped(mdp.choices()),
       mdp.deterministic() ? "deterministic" : grouped(mdp.outcomes()) + " transitions",
-      shortest(solved.solution.discount), solved.asked.minimise ? "least cost" : "largest reward",
-      solved.solution.method);
+      shortest(solved.solution.discount), objective_text(solved), solved.solution.method);
 }
 
 /// Q* of every choice beside each other, for worlds that fit on a page; nothing if one of them is

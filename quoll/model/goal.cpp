@@ -225,6 +225,56 @@ void reward_entering(const Mdp& mdp, const std::vector<State>& goal, bool minimi
   a.discount = 1.0;
 }
 
+// Who comes to an end outside the goal stays there for ever, and never comes to the goal.
+void stay_outside(const Mdp& mdp, const std::vector<State>& goal, MdpArrays& a) {
+  std::vector<bool> stays(mdp.states(), false);
+  bool any = false;
+  for (State s = 0; s < mdp.states(); ++s) {
+    stays[s] = mdp.terminal(s) && !std::binary_search(goal.begin(), goal.end(), s);
+    any = any || stays[s];
+  }
+  a.terminal = goal;
+  a.other_rewards.clear();
+  if (!any) return;
+  const auto stay = a.action_names.find("stay");
+  const auto action = static_cast<std::uint32_t>(stay.value_or(a.action_names.size()));
+  Names names;
+  for (std::uint64_t i = 0; i < a.action_names.size(); ++i) names.push_back(a.action_names[i]);
+  if (!stay) names.push_back("stay");
+  MdpArrays to;
+  to.choice_begin.push_back(0);
+  to.outcome_begin.push_back(0);
+  const auto add = [&to](State next, double probability, double reward) {
+    to.next.push_back(next);
+    to.probability.push_back(probability);
+    to.outcome_reward.push_back(reward);
+  };
+  for (State s = 0; s < mdp.states(); ++s) {
+    for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s) && !stays[s]; ++c) {
+      for (std::uint64_t o = mdp.outcome_begin(c); o < mdp.outcome_end(c); ++o) {
+        add(mdp.next(o), mdp.probability(o),
+            a.outcome_reward.empty() ? a.reward[c] : a.outcome_reward[o]);
+      }
+      to.outcome_begin.push_back(to.next.size());
+      to.action.push_back(a.action[c]);
+    }
+    if (stays[s]) {
+      add(s, 1.0, 0.0);
+      to.outcome_begin.push_back(to.next.size());
+      to.action.push_back(action);
+    }
+    to.choice_begin.push_back(to.action.size());
+  }
+  a.choice_begin = std::move(to.choice_begin);
+  a.outcome_begin = std::move(to.outcome_begin);
+  a.next = std::move(to.next);
+  a.probability = std::move(to.probability);
+  a.reward.clear();
+  a.outcome_reward = std::move(to.outcome_reward);
+  a.action = std::move(to.action);
+  a.action_names = std::move(names);
+}
+
 Error unknown_rewards(const Mdp& mdp, const std::string& name) {
   Nearest nearest(name);
   std::string known;
@@ -271,8 +321,12 @@ Result<Mdp> aim(const Mdp& mdp, const Goal& goal) {
   }
   const Result<std::vector<State>> states = states_of(mdp, goal.states);
   if (!states) return states.error();
-  if (goal.rewards.empty()) reward_entering(mdp, *states, goal.minimise, a);
-  sort_in(a.terminal, *states);
+  if (goal.rewards.empty()) {
+    reward_entering(mdp, *states, goal.minimise, a);
+    sort_in(a.terminal, *states);
+  } else {
+    stay_outside(mdp, *states, a);
+  }
   return Mdp::make(std::move(a));
 }
 

@@ -28,7 +28,8 @@ Result<std::vector<State>> states_of(const Mdp& mdp, std::string_view expression
 /// The probability of reaching the goal is the total of rewards of 1 on entering it, at discount 1;
 /// states that can never reach it, or when minimising need never, are ends then, so that the best
 /// policy of those that end gives the true probability (Baier and Katoen 2008, sections 10.6.1 and
-/// 10.6.2). Ends earn nothing: a state of the goal has the value 0. Error: unknown names, and a
+/// 10.6.2). With rewards, who comes to an end outside the goal stays there for ever. Ends earn
+/// nothing: a state of the goal has the value 0. Error: unknown names, and a
 /// goal in a game of two. Cost: a few passes, 8 bytes per outcome when minimising.
 Result<Mdp> aim(const Mdp& mdp, const Goal& goal);
 

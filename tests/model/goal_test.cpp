@@ -105,6 +105,14 @@ TEST(Goal, RewardsWithoutANameAreCalledReward) {
   const auto own = aim(*mdp, {"B", "reward", false});
   ASSERT_TRUE(own) << message(own.error());
   EXPECT_EQ(own->reward(0), 5.0);
+  // The end B is not the goal A: whoever is there stays.
+  const auto never = aim(*mdp, {"A", "reward", false});
+  ASSERT_TRUE(never) << message(never.error());
+  EXPECT_TRUE(never->terminal(0));
+  EXPECT_FALSE(never->terminal(1));
+  EXPECT_EQ(never->action_name(1), "stay");
+  EXPECT_EQ(never->next(1), 1u);
+  EXPECT_EQ(never->reward(1), 0.0);
   EXPECT_EQ(message(aim(*mdp, {"B", "gold", false}).error()),
             "--reward: no rewards 'gold' in this world; there are reward");
   EXPECT_EQ(message(aim(*mdp, {"C1", "", false}).error()),

@@ -137,6 +137,13 @@ TEST(GoalValues, ChoicesThatMayMissTheGoalAreLeftOut) {
   const Answer answer = solved(mdp, {"goal", "time", true});
   EXPECT_EQ(answer.outside.part->action_name(0), "sure");
   EXPECT_EQ(answer.solution.lower[1], infinity);
+  // The same where the trap has no choice at all.
+  const Mdp dead =
+      read(parse_model("@type: MDP\n@reward_models\ntime\n@nr_states\n3\n@model\nstate 0 init\n"
+                       "\taction risk [1]\n\t\t1 : 0.1\n\t\t2 : 0.9\n\taction sure [5]\n\t\t2 : 1\n"
+                       "state 1\nstate 2 goal\n",
+                       "w.drn"));
+  expect_value(dead, {"goal", "time", true}, 5.0);
 }
 
 // Models that others publish with their answers, where a folder holds them.
