@@ -1,6 +1,7 @@
 #include "quoll/act/start.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace quoll {
 namespace {
@@ -29,23 +30,21 @@ StartStates StartStates::world(const Mdp& mdp) {
 }
 
 StartStates StartStates::uniform(const Mdp& mdp) {
-  StartStates starts;
-  starts.kind_ = Kind::uniform;
-  starts.states_ = states_with_actions(mdp);
-  return starts;
+  return among(Kind::uniform, states_with_actions(mdp));
 }
 
 StartStates StartStates::fixed(State state) {
-  StartStates starts;
-  starts.kind_ = Kind::fixed;
-  starts.states_ = {state};
-  return starts;
+  return among(Kind::fixed, {state});
 }
 
 StartStates StartStates::least_visited(const Mdp& mdp) {
+  return among(Kind::least_visited, states_with_actions(mdp));
+}
+
+StartStates StartStates::among(Kind kind, std::vector<State> states) {
   StartStates starts;
-  starts.kind_ = Kind::least_visited;
-  starts.states_ = states_with_actions(mdp);
+  starts.kind_ = kind;
+  starts.states_ = std::move(states);
   return starts;
 }
 

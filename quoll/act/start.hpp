@@ -12,15 +12,29 @@
 
 namespace quoll {
 
-inline constexpr std::string_view start_names[] = {"world", "uniform", "fixed", "least-visited"};
+inline constexpr std::string_view start_names[] = {
+    "world", "uniform", "fixed", "least-visited", "each-pair", "reverse", "widest-gap"};
 inline constexpr std::string_view start_summaries[] = {
-    "as the world itself begins", "every state that has actions with equal probability",
-    "always the same state: fixed:STATE", "a state whose actions were tried least so far"};
+    "as the world itself begins",
+    "every state that has actions with equal probability",
+    "always the same state: fixed:STATE",
+    "a state whose actions were tried least so far",
+    "each state and action in turn, one step each unless --episode-steps says more",
+    "near the best end met so far, and backwards from there",
+    "where upper and lower bound of the value are furthest apart; methods that have both"};
 
 /// Draws start states. All but `world` need a world that can be put into any state.
 class StartStates {
  public:
-  enum class Kind : std::uint8_t { world, uniform, fixed, least_visited };
+  enum class Kind : std::uint8_t {
+    world,
+    uniform,
+    fixed,
+    least_visited,
+    each_pair,
+    reverse,
+    widest_gap
+  };
 
   StartStates() = default;
   /// From the distribution of a model, without the ends in it: an episode has at least one step.
@@ -31,8 +45,13 @@ class StartStates {
   /// The first state, in circular order from the last one chosen, with no more visits than the
   /// least visited; constant time on average (see least_visited()).
   static StartStates least_visited(const Mdp& mdp);
+  /// One of these states: as least_visited chooses (each_pair), or as choose_next() says (reverse,
+  /// widest_gap), or with equal probability.
+  static StartStates among(Kind kind, std::vector<State> states);
 
   Kind kind() const { return kind_; }
+  /// What the next draw of `reverse` or `widest_gap` gives.
+  void choose_next(State state) { chosen_ = state; }
   /// Every state this can give.
   std::span<const State> states() const { return states_; }
 
@@ -43,7 +62,11 @@ class StartStates {
     const std::uint64_t bits = rng.next();
     switch (kind_) {
       case Kind::least_visited:
+      case Kind::each_pair:
         return least_visited(visits);
+      case Kind::reverse:
+      case Kind::widest_gap:
+        return chosen_;
       case Kind::fixed:
         return states_[0];
       default:
@@ -90,6 +113,7 @@ class StartStates {
   Kind kind_ = Kind::world;
   std::vector<State> states_;
   std::vector<double> cumulative_;  // empty = uniform
+  State chosen_ = 0;
   std::uint64_t cursor_ = 0, level_ = 0, next_level_ = ~std::uint64_t{0};
 };
 

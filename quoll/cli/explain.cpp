@@ -102,8 +102,14 @@ Result<Lesson> lesson_of(const ExplainOptions& options, const World& world) {
   if (!setup) return setup.error();
   lesson.setup = *setup;
 
+  if (options.trace && lesson.entry->replay == nullptr) {
+    return Error{"--trace", 0, 0,
+                 "an update of " + lesson.settings.method +
+                     " depends on more than its own step: --steps N shows those of a run",
+                 "--steps"};
+  }
   const bool lecture = !options.trace && options.steps == 0 && world.name == "adventure" &&
-                       parse_trace(world, lecture_trace);
+                       lesson.entry->replay != nullptr && parse_trace(world, lecture_trace);
   if (!lecture && !options.trace) {
     own_updates(lesson, options.steps);
   } else {

@@ -24,6 +24,8 @@ struct Traits {
   std::uint32_t players = 1;
   std::uint64_t states = 0;  ///< 0 = not enumerable
   std::optional<std::pair<double, double>> reward_bounds;
+  /// Bounds of the rewards of steps that do not end an episode, where they are narrower.
+  std::optional<std::pair<double, double>> running_rewards;
   enum class StepCost : std::uint8_t { cheap, dear } step_cost = StepCost::cheap;
   bool libm = false;  ///< its bits depend on the C library's functions
 };

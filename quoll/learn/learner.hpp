@@ -69,8 +69,13 @@ struct LearnerEntry {
   bool sound;
   std::unique_ptr<Learner> (*make)(const TabularSetup& setup);
   /// The same rule applied to given transitions (state, action, reward, next, terminated of each),
-  /// with the numbers of each update filled in; needs a world with a model.
+  /// with the numbers of each update filled in; needs a world with a model. Nullptr for methods
+  /// with memory, whose updates are more than one step's.
   std::vector<Update> (*replay)(const TabularSetup& setup, std::span<const Update> script);
+  /// Its values tend to the optimal ones however it explores; false: to those of its exploring.
+  bool off_policy = true;
+  /// Knows an upper and a lower value of each state, as starts of widest gap need.
+  bool has_bounds = false;
 };
 std::span<const LearnerEntry> learners();
 

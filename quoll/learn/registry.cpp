@@ -13,6 +13,7 @@ std::span<const LearnerEntry> learners() {
       q_learning_standard,
       q_learning_as_printed,
       q_learning_reward_estimate,
+      reverse_replay,
   };
   return entries;
 }

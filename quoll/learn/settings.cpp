@@ -5,9 +5,27 @@
 #include <limits>
 
 #include "quoll/base/text.hpp"
+#include "quoll/learn/learner.hpp"
 #include "quoll/model/graph.hpp"
 
 namespace quoll {
+
+void MethodSettings::describe(Describer& d) {
+  d("trace_decay", trace_decay, 0, 1, "q-lambda: lambda, how far an error travels back");
+  d("return_steps", return_steps, "n-step, tree-backup: rewards in a return before the table");
+  d("planning_backups", planning_backups,
+    "dyna-q, dyna-q-plus, prioritised-sweeping: backups of the model per step");
+  d("sweep_threshold", sweep_threshold, 0, 1e300,
+    "prioritised-sweeping: smallest change that travels on, times the range of rewards");
+  d.choice("backups", backups, backups_names,
+           "prioritised-sweeping: whole pairs, or one successor at a time");
+  d("kappa", kappa, 0, 1e300, "dyna-q-plus: bonus per root of the steps since the last visit");
+  d("ucb_bonus", ucb_bonus, 0, 1e300, "ucb-q: bonus times range * sqrt(H / n)");
+  d("known_after", known_after, "optimistic-model: visits after which a pair counts as known");
+  d("bonus_variance", bonus_variance, 0, 1e300,
+    "optimistic-model: B of the bonus sqrt(B * variance / n) + C * range * sqrt(H) / n");
+  d("bonus_range", bonus_range, 0, 1e300, "optimistic-model: C of that bonus");
+}
 
 void LearnSettings::describe(Describer& d) {
   d("method", method, "how to learn; see 'quoll list methods'");
@@ -29,6 +47,9 @@ void LearnSettings::describe(Describer& d) {
   d("episode_steps", episode_steps,
     "steps after which an episode is cut off; 0 = the world's limit, or as 'list starts' says");
   d.choice("precision", precision, precision_names, "numbers of the table");
+  d("reward_range", reward_range,
+    "smallest and largest reward of a step, LOW,HIGH; empty = as the world declares");
+  of_method.describe(d);
 }
 
 void LearnSettings::persist(Archive& archive) {
@@ -81,6 +102,16 @@ Result<Exploration> exploration(const LearnSettings& settings, const World& worl
   return chosen;
 }
 
+// Those of a world without a model that are no ends.
+std::vector<State> states_with_actions(const World& world) {
+  const std::unique_ptr<Environment> environment = world.make({});
+  std::vector<State> states;
+  for (State s = 0; s < environment->spaces().states; ++s) {
+    if (environment->actions(s) > 0) states.push_back(s);
+  }
+  return states;
+}
+
 Result<StartStates> starts(const LearnSettings& settings, const World& world) {
   const std::string_view text = settings.start;
   const std::string_view kind = text.substr(0, text.find(':'));
@@ -94,14 +125,19 @@ Result<StartStates> starts(const LearnSettings& settings, const World& world) {
         "--start", 0, 0,
         "the world " + world.name + " cannot be put into a chosen state; use --start world", ""};
   }
+  const auto which = static_cast<StartStates::Kind>(found - std::begin(start_names));
   if (!world.mdp) {
     if (kind == "world") return StartStates();
-    return Error{"--start", 0, 0, "chosen start states need a world whose model is known", ""};
+    if (kind != "fixed") return StartStates::among(which, states_with_actions(world));
+    return Error{"--start", 0, 0, "a fixed start needs a world whose model is known", ""};
   }
   const Mdp& mdp = *world.mdp;
   StartStates result = kind == "world"     ? StartStates::world(mdp)
                        : kind == "uniform" ? StartStates::uniform(mdp)
                                            : StartStates::least_visited(mdp);
+  if (which >= StartStates::Kind::each_pair) {
+    result = StartStates::among(which, {result.states().begin(), result.states().end()});
+  }
   if (kind == "fixed") {
     const std::string_view name = kind == text ? "" : text.substr(kind.size() + 1);
     const auto state = mdp.find_state(name);
@@ -124,9 +160,8 @@ Result<StartStates> starts(const LearnSettings& settings, const World& world) {
   return result;
 }
 
-// "optimistic": the most any policy can earn: R / (1 - discount), or the largest reward when no
-// single one but the last can be positive.
-Result<double> initial_value(const LearnSettings& settings, const World& world, double discount) {
+// "optimistic": the most any policy can earn.
+Result<double> initial_value(const LearnSettings& settings, const TabularSetup& setup) {
   if (settings.initial_value != "optimistic") {
     const auto number = parse_number(settings.initial_value);
     if (number && std::isfinite(*number)) return *number;
@@ -134,28 +169,14 @@ Result<double> initial_value(const LearnSettings& settings, const World& world, 
                  "a number or optimistic expected, not '" + settings.initial_value + "'",
                  nearest(settings.initial_value, std::vector<std::string>{"optimistic"})};
   }
-  if (!world.traits.reward_bounds) {
+  if (!setup.rewards) {
     return Error{"--initial-value", 0, 0,
-                 "optimistic needs a world that declares its rewards; give a number", ""};
+                 "optimistic needs a world that declares its rewards, or --reward-range; or give a "
+                 "number",
+                 ""};
   }
-  double running = world.traits.reward_bounds->second, last = running;
-  if (world.mdp) {
-    running = last = -HUGE_VAL;
-    const Mdp& mdp = *world.mdp;
-    for (State s = 0; s < mdp.states(); ++s) {
-      if (mdp.terminal(s)) continue;
-      for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
-        for (std::uint64_t o = mdp.outcome_begin(c); o < mdp.outcome_end(c); ++o) {
-          double& most = mdp.terminal(mdp.next(o)) ? last : running;
-          // What one player loses the other gains.
-          const double reward = mdp.reward(c, o);
-          most = std::max(most, mdp.alternating() ? std::fabs(reward) : reward);
-        }
-      }
-    }
-  }
-  if (running <= 0.0) return std::max(0.0, last);
-  if (discount < 1.0) return std::max(running, last) / (1.0 - discount);
+  const double most = value_range(*setup.rewards, setup.discount).second;
+  if (std::isfinite(most)) return most;
   return Error{"--initial-value", 0, 0,
                "optimistic is unbounded here (discount 1 and rewards on the way); give a number",
                ""};
@@ -165,16 +186,19 @@ std::uint64_t episode_limit(const LearnSettings& settings, const World& world, d
   if (settings.episode_steps > 0) return settings.episode_steps;
   if (world.episode_steps > 0) return world.episode_steps;
   if (settings.start == "world") return 2000;
+  if (settings.start == "each-pair") return 1;
   // Chosen starts are wasted in long episodes: one horizon, at most 32 steps.
   const double horizon = discount < 1.0 ? std::ceil(1.0 / (1.0 - discount)) : 32.0;
   return static_cast<std::uint64_t>(std::min(horizon, 32.0));
 }
 
-StableSetup stable(const LearnSettings& settings, const TabularSetup& setup, const World& world) {
+StableSetup stable(const LearnSettings& settings, const TabularSetup& setup,
+                   const LearnerEntry& entry) {
+  const World& world = *setup.world;
   StableSetup stable;
   stable.watch = settings.until_stable;
-  const bool proves =
-      world.traits.deterministic && (setup.step_size.one() || setup.rule != "standard");
+  const bool proves = world.traits.deterministic && entry.off_policy &&
+                      (setup.step_size.one() || setup.rule != "standard");
   stable.visits = proves ? 1 : 100;
   stable.tolerance = settings.tolerance >= 0.0 ? settings.tolerance : proves ? 0.0 : 1e-3;
   if (stable.watch && world.mdp) {
@@ -198,8 +222,8 @@ Result<StepSize> step_size(const LearnSettings& settings, const World& world, do
 }
 
 // What a table of this precision begins with; "all QE = 0" is part of the printed rule.
-Result<double> first_value(const LearnSettings& settings, const World& world, double discount) {
-  const auto initial = initial_value(settings, world, discount);
+Result<double> first_value(const LearnSettings& settings, const TabularSetup& setup) {
+  const auto initial = initial_value(settings, setup);
   if (!initial) return initial;
   if (settings.rule == "as-printed") return 0.0;
   if (settings.precision == Precision::single &&
@@ -229,6 +253,8 @@ double value_bound(const TabularSetup& setup, const World& world) {
 
 Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
                              const std::vector<double>& initial_rewards) {
+  const Result<const LearnerEntry*> entry = find_learner(settings);
+  if (!entry) return entry.error();
   TabularSetup setup;
   setup.world = &world;
   setup.rule = settings.rule;
@@ -248,6 +274,12 @@ Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
   const auto starting = starts(settings, world);
   if (!starting) return starting.error();
   setup.starts = *starting;
+  if (setup.starts.kind() == StartStates::Kind::widest_gap && !(*entry)->has_bounds) {
+    return Error{"--start", 0, 0,
+                 "widest-gap needs a method with an upper and a lower value of each state; " +
+                     settings.method + " has none",
+                 "optimistic-model"};
+  }
   const auto step = step_size(settings, world, setup.discount);
   if (!step) return step.error();
   setup.step_size = *step;
@@ -256,7 +288,11 @@ Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
         "--tolerance", 0, 0,
         "-1 or a number of at least 0 expected, not '" + shortest(settings.tolerance) + "'", ""};
   }
-  const auto initial = first_value(settings, world, setup.discount);
+  const auto rewards = reward_range(world, settings.reward_range);
+  if (!rewards) return rewards.error();
+  setup.rewards = *rewards;
+  setup.of_method = settings.of_method;
+  const auto initial = first_value(settings, setup);
   if (!initial) return initial.error();
   setup.initial_value = *initial;
   const std::uint64_t choices = world.mdp ? world.mdp->choices() : 0;
@@ -271,7 +307,7 @@ Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
     setup.initial_rewards = world.mdp->arrays().reward;
   }
   setup.episode_steps = episode_limit(settings, world, setup.discount);
-  setup.stable = stable(settings, setup, world);
+  setup.stable = stable(settings, setup, **entry);
   setup.value_bound = value_bound(setup, world);
   return setup;
 }

@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "quoll/act/exploration.hpp"
@@ -12,6 +14,7 @@
 #include "quoll/base/settings.hpp"
 #include "quoll/env/world.hpp"
 #include "quoll/learn/step_size.hpp"
+#include "quoll/learn/value_range.hpp"
 
 namespace quoll {
 
@@ -19,7 +22,25 @@ enum class Ties : std::uint8_t { uniform, first };
 inline constexpr std::string_view ties_names[] = {"uniform", "first"};
 enum class Precision : std::uint8_t { single, twofold };
 inline constexpr std::string_view precision_names[] = {"float", "double"};
+enum class Backups : std::uint8_t { full, small };
+inline constexpr std::string_view backups_names[] = {"full", "small"};
 inline constexpr std::string_view rule_names[] = {"standard", "as-printed", "reward-estimate"};
+
+/// The numbers of methods with memory; each file in learn/tabular/ says which it reads.
+struct MethodSettings {
+  double trace_decay = 0.8;             ///< lambda
+  std::uint64_t return_steps = 5;       ///< n
+  std::uint64_t planning_backups = 10;  ///< backups of the model per step
+  double sweep_threshold = 1e-4;        ///< theta, times the range of rewards
+  Backups backups = Backups::full;
+  double kappa = 1e-3;            ///< Dyna-Q+: bonus times sqrt(steps since the last visit)
+  double ucb_bonus = 0.03;        ///< UCB-Q: bonus times range * sqrt(H / n)
+  std::uint64_t known_after = 1;  ///< m: visits after which a pair is known
+  double bonus_variance = 2.0;    ///< B
+  double bonus_range = 1.0;       ///< C
+
+  void describe(Describer& d);
+};
 
 struct LearnSettings {
   std::string method = "q-learning";
@@ -38,6 +59,8 @@ struct LearnSettings {
   double tolerance = -1.0;
   std::uint64_t episode_steps = 0;
   Precision precision = Precision::single;
+  std::string reward_range;  ///< "a,b"; empty = as the world declares
+  MethodSettings of_method;
   bool until_stable = true;  ///< set by the run: watch for stability
 
   void describe(Describer& d);
@@ -66,7 +89,9 @@ struct TabularSetup {
   std::uint64_t episode_steps = 2000;
   Precision precision = Precision::single;
   StableSetup stable;
-  double value_bound = 0.0;  ///< B of the divergence guard; 0 = none known
+  double value_bound = 0.0;            ///< B of the divergence guard; 0 = none known
+  std::optional<RewardRange> rewards;  ///< as declared or given
+  MethodSettings of_method;
 };
 
 /// Resolves the settings against the world. Errors name the flag, the range and the nearest word.

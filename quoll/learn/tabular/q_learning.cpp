@@ -9,6 +9,8 @@
 //
 // s, a -> pair; r -> reward; gamma -> discount; max Q(s',.) -> best_next; alpha -> StepSize.
 
+#include "quoll/learn/tabular/method_engine.hpp"
+#include "quoll/learn/tabular/one_step.hpp"
 #include "quoll/learn/tabular/replay.hpp"
 #include "quoll/learn/tabular/rules.hpp"
 #include "quoll/learn/tabular/tabular.hpp"
@@ -31,7 +33,13 @@ struct QLearning {
   void persist(Archive&) {}
 };
 
+template <class V>
+using QLearningStep = OneStep<QLearning<V>>;
+
 std::unique_ptr<Learner> make(const TabularSetup& setup) {
+  if (setup.starts.kind() >= StartStates::Kind::each_pair) {
+    return method_learner<QLearningStep>(setup);
+  }
   if (setup.precision == Precision::twofold) return tabular<QLearning<double>>(setup);
   return tabular<QLearning<float>>(setup);
 }

@@ -8,5 +8,6 @@ namespace quoll {
 extern const LearnerEntry q_learning_standard;
 extern const LearnerEntry q_learning_as_printed;
 extern const LearnerEntry q_learning_reward_estimate;
+extern const LearnerEntry reverse_replay;
 
 }  // namespace quoll
