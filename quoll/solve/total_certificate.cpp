@@ -6,6 +6,7 @@
 
 #include "quoll/model/graph.hpp"
 #include "quoll/solve/ending.hpp"
+#include "quoll/solve/free_parts.hpp"
 #include "quoll/solve/growth.hpp"
 #include "quoll/solve/induced.hpp"
 #include "quoll/solve/rounding.hpp"
@@ -20,15 +21,16 @@ class Prover {
  public:
   Prover(const Mdp& mdp, const std::vector<std::uint8_t>& live, const std::vector<Action>& policy,
          const std::vector<double>& value)
-      : mdp_(mdp), live_(live), policy_(policy), value_(value) {
+      : mdp_(mdp), live_(live), policy_(policy), value_(value), free_(mdp, live) {
     const auto [low, high] = mdp.reward_bounds();
     reward_size_ = std::max(std::fabs(low), std::fabs(high));
     size_ = reward_size_;
     for (State s = 0; s < mdp.states(); ++s) {
       if (live[s] != 0) size_ = std::max(size_, std::fabs(value[s]));
     }
-    find_free_moves();
-    share(value_);
+    free_.level_up(value_);
+    free_.balance(value_, size_);
+    free_.level_up(value_);
   }
 
   TotalCertificate run() {
@@ -39,10 +41,17 @@ class Prover {
     for (const double nearness : {1e-9, 1e-12, 1e-14}) {
       if (!(size_ < infinity) || (lower && upper)) break;
       if (!count_moves(nearness * size_)) continue;
-      double excess = std::max(4.0 * residual(), 32.0 * half_ulp * size_);
+      double excess = least_excess();
       for (int attempt = 0; attempt < 6 && !(lower && upper); ++attempt, excess *= 8.0) {
         if (!lower) lower = prove_lower(excess, out.lower);
         if (!upper) upper = prove_upper(excess, out.upper);
+      }
+    }
+    // What the policy is sure of needs the length of its own episodes only.
+    if (!lower && size_ < infinity && count_moves(-infinity)) {
+      double excess = least_excess();
+      for (int attempt = 0; attempt < 6 && !lower; ++attempt, excess *= 8.0) {
+        lower = prove_lower(excess, out.lower);
       }
     }
     return out;
@@ -57,35 +66,7 @@ class Prover {
     return bound;
   }
 
-  // End components of choices that earn nothing and keep to live states.
-  void find_free_moves() {
-    std::vector<bool> allowed(mdp_.choices(), false);
-    for (State s = 0; s < mdp_.states(); ++s) {
-      if (live_[s] == 0) continue;
-      for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
-        bool free = true;
-        for (std::uint64_t o = mdp_.outcome_begin(c); o < mdp_.outcome_end(c); ++o) {
-          free = free && mdp_.reward(c, o) == 0.0 && live_[mdp_.next(o)] != 0;
-        }
-        allowed[c] = free;
-      }
-    }
-    free_ = maximal_end_components(mdp_, allowed);
-  }
-
-  // Gives all states of a free component the greatest value among them.
-  void share(std::vector<double>& value) const {
-    if (free_.count == 0) return;
-    std::vector<double> greatest(free_.count, -infinity);
-    for (State s = 0; s < mdp_.states(); ++s) {
-      const std::uint32_t k = free_.component[s];
-      if (k != no_component) greatest[k] = std::max(greatest[k], value[s]);
-    }
-    for (State s = 0; s < mdp_.states(); ++s) {
-      const std::uint32_t k = free_.component[s];
-      if (k != no_component) value[s] = greatest[k];
-    }
-  }
+  double least_excess() const { return std::max(4.0 * residual(), 32.0 * half_ulp * size_); }
 
   bool policy_ends() const {
     std::vector<bool> outside(mdp_.states());
@@ -106,14 +87,14 @@ class Prover {
   }
 
   // w <- 1 + max over nearly optimal choices of P w, to within half a move; false if it grows
-  // without bound.
+  // without bound. Nearness -infinity: of the policy's choices alone.
   bool count_moves(double nearness) {
     std::vector<bool> near(mdp_.choices(), false);
     for (State s = 0; s < mdp_.states(); ++s) {
       if (live_[s] == 0) continue;
       for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
         const bool kept = backup(mdp_, 1.0, value_.data(), c) >= value_[s] - nearness;
-        near[c] = (kept || c == mdp_.choice_begin(s) + policy_[s]) && !free_.inside[c];
+        near[c] = (kept || c == mdp_.choice_begin(s) + policy_[s]) && !free_.inside(c);
       }
     }
     moves_.assign(mdp_.states(), 0.0);
@@ -126,7 +107,7 @@ class Prover {
       moves_[s] = most;
       return change;
     };
-    if (free_.count == 0 && !count_along_wave(raise)) return false;
+    if (free_.count() == 0 && !count_along_wave(raise)) return false;
     return count_to_and_fro(raise);
   }
 
@@ -159,7 +140,7 @@ class Prover {
         const State s = backward ? static_cast<State>(mdp_.states()) - 1 - i : i;
         if (live_[s] != 0) change = std::max(change, raise(s));
       }
-      share(moves_);
+      free_.share(moves_);
       backward = !backward;
     }
     return change <= settled;
@@ -178,7 +159,7 @@ class Prover {
     double largest = 0.0;
     for (State s = 0; s < mdp_.states(); ++s) {
       const std::uint64_t c = mdp_.choice_begin(s) + policy_[s];
-      if (live_[s] == 0 || free_.inside[c]) continue;
+      if (live_[s] == 0 || free_.inside(c)) continue;
       const double q = backup(mdp_, 1.0, value_.data(), c);
       largest = std::max(largest, std::fabs(q - value_[s]));
     }
@@ -190,7 +171,7 @@ class Prover {
     const double reward = sign * mdp_.reward(c);
     const double outcomes = static_cast<double>(mdp_.outcome_end(c) - mdp_.outcome_begin(c));
     double sum = reward;
-    if (!free_.inside[c]) {
+    if (!free_.inside(c)) {
       sum = add_up(reward, (outcomes + 3.0) * 2.0 * half_ulp * reward_size_);
     }
     return growth_up(mdp_, bound, sign, s, c, sum);
@@ -202,6 +183,7 @@ class Prover {
     for (State s = 0; s < mdp_.states(); ++s) {
       if (live_[s] != 0) bound[s] = value_[s] - excess * moves_[s];
     }
+    free_.level_down(bound);
     for (State s = 0; s < mdp_.states(); ++s) {
       if (live_[s] == 0) continue;
       if (gain_up(bound, -1.0, s, mdp_.choice_begin(s) + policy_[s]) > 0.0) return false;
@@ -216,6 +198,7 @@ class Prover {
     for (State s = 0; s < mdp_.states(); ++s) {
       if (live_[s] != 0) bound[s] = value_[s] + excess * moves_[s];
     }
+    free_.level_up(bound);
     constexpr unsigned most_sweeps = 40;
     for (unsigned k = 0; k < most_sweeps; ++k) {
       bool raised = false;
@@ -232,7 +215,7 @@ class Prover {
         proved = std::move(bound);
         return true;
       }
-      share(bound);
+      free_.level_up(bound);
     }
     return false;
   }
@@ -242,7 +225,7 @@ class Prover {
   const std::vector<Action>& policy_;
   std::vector<double> value_;
   std::vector<double> moves_;  // w
-  EndComponents free_;
+  FreeParts free_;
   double reward_size_ = 0.0;
   double size_ = 0.0;
 };

@@ -5,7 +5,8 @@
 // w and U = V + e w satisfy T_pi L >= L and T U <= U if V is accurate to within e per move. Both
 // are then checked move by move with outward rounding, as sums of p (U(s') - U(s)), which is exact
 // where U is constant; rows are taken to sum to 1. Sets of states between which one moves for
-// nothing (end components without reward) share one value.
+// nothing (free_parts.hpp) share one value. What the policy is sure of is proved in any case in
+// which it ends; the upper bound stays open where rewards balance in numbers no double can hold.
 
 #include <cstdint>
 #include <vector>

@@ -82,6 +82,23 @@ inline Mdp free_circle() {
   return built(b);
 }
 
+/// Going round 1 and 2 is for nothing, at discount 1: 1 pays 4 until it comes to 2, which takes two
+/// tries: -8. 2 earns 2 until it comes to 1, which takes four: +8. So V(2) = V(1) + 8; V(0) = V(2)
+/// - 2 by its own two tries; V(1) = V(0) / 2 by ending half the time. V(1) = (V(1) + 6) / 2 = 6,
+/// V(0) = 12, V(2) = 14, V(3) = V(2) - 1 = 13.
+inline Mdp there_and_back() {
+  MdpBuilder b(1.0);
+  for (const char* name : {"0", "1", "2", "3", "END"}) b.state(name);
+  b.move("0", "quit", "END", -4).move("0", "a", "0", -1, 0.25).move("0", "a", "END", -1, 0.75);
+  b.move("0", "b", "0", -1, 0.5).move("0", "b", "2", -1, 0.5);
+  b.move("1", "quit", "END", -2).move("1", "a", "END", 0, 0.5).move("1", "a", "0", 0, 0.5);
+  b.move("1", "b", "1", -4, 0.5).move("1", "b", "2", -4, 0.5);
+  b.move("2", "quit", "END", -4).move("2", "a", "1", 2, 0.25).move("2", "a", "2", 2, 0.75);
+  b.move("2", "b", "1", 1, 0.5).move("2", "b", "3", 1, 0.5);
+  b.move("3", "quit", "END", -4).move("3", "a", "2", -1).move("3", "b", "1", -4);
+  return built(b);
+}
+
 /// A random model: `states` - 1 states with up to 3 actions of up to 3 outcomes with probabilities
 /// in eighths, rewards in quarters, one end that every action may lead to. Linear congruential
 /// dice.

@@ -149,6 +149,7 @@ TEST(SolverSuite, RationalAnswers) {
     by_state[*circle.find_state("A")] = -2.0;
     by_state[*circle.find_state("END")] = 0.0;
     expect(circle, by_state);
+    expect(test::there_and_back(), {12.0, 6.0, 14.0, 13.0, 0.0});
   }
 }
 
