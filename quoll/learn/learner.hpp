@@ -74,6 +74,8 @@ struct LearnerEntry {
   std::vector<Update> (*replay)(const TabularSetup& setup, std::span<const Update> script);
   /// Its values tend to the optimal ones however it explores; false: to those of its exploring.
   bool off_policy = true;
+  /// Its table is planned by the solvers, to within their intervals.
+  bool plans = false;
   /// Knows an upper and a lower value of each state, as starts of widest gap need.
   bool has_bounds = false;
 };

@@ -14,6 +14,10 @@ std::span<const LearnerEntry> learners() {
       q_learning_as_printed,
       q_learning_reward_estimate,
       reverse_replay,
+      dyna_q,
+      dyna_q_plus,
+      prioritised_sweeping,
+      empirical_model,
   };
   return entries;
 }

@@ -200,7 +200,9 @@ StableSetup stable(const LearnSettings& settings, const TabularSetup& setup,
   const bool proves = world.traits.deterministic && entry.off_policy &&
                       (setup.step_size.one() || setup.rule != "standard");
   stable.visits = proves ? 1 : 100;
-  stable.tolerance = settings.tolerance >= 0.0 ? settings.tolerance : proves ? 0.0 : 1e-3;
+  // What solvers plan is as exact as their intervals are narrow.
+  const double exactly = entry.plans ? 1e-9 : 0.0;
+  stable.tolerance = settings.tolerance >= 0.0 ? settings.tolerance : proves ? exactly : 1e-3;
   if (stable.watch && world.mdp) {
     const std::vector<bool> reached = reachable(*world.mdp, setup.starts.states());
     for (State s = 0; s < world.mdp->states(); ++s) {

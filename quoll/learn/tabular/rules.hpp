@@ -9,5 +9,9 @@ extern const LearnerEntry q_learning_standard;
 extern const LearnerEntry q_learning_as_printed;
 extern const LearnerEntry q_learning_reward_estimate;
 extern const LearnerEntry reverse_replay;
+extern const LearnerEntry dyna_q;
+extern const LearnerEntry dyna_q_plus;
+extern const LearnerEntry prioritised_sweeping;
+extern const LearnerEntry empirical_model;
 
 }  // namespace quoll
