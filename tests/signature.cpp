@@ -79,8 +79,10 @@ std::uint64_t solved(const SolverEntry& entry, const World& world) {
   return hash.value;
 }
 
-/// Larger worlds are stepped only: learning them would add minutes, and no kind of step.
+/// Larger worlds are stepped only: learning them would add minutes, and no kind of step. Methods
+/// that plan do so for almost every step here.
 constexpr std::uint64_t learned_up_to = 10'000;  // states
+constexpr std::uint64_t planned_up_to = 100;
 
 std::uint64_t stepped(const World& world) {
   Hash hash;
@@ -118,9 +120,10 @@ std::uint64_t signature(bool parts) {
   for (const World& world : the_worlds()) {
     const bool large = world.traits.states > learned_up_to;
     for (const LearnerEntry& entry : learners()) {
-      if (large) break;
+      if (large || (entry.traits.plans && world.traits.states > planned_up_to)) continue;
       const std::string name = std::string(entry.method) + " " + std::string(entry.rule);
       for (const std::string_view explore : exploration_names) {
+        if (entry.traits.directed && explore != exploration_names[0]) continue;
         part("learn " + world.name + " " + name + " --explore " + std::string(explore),
              learned(entry, world, std::string(explore), "world", "auto"));
       }
@@ -129,6 +132,7 @@ std::uint64_t signature(bool parts) {
              learned(entry, world, "epsilon-greedy", std::string(start), "auto"));
       }
       for (const std::string step_size : {"1", "0.1", "1e-5", "1/N^0.8", "rescaled-linear"}) {
+        if (entry.traits.plans) continue;
         part("learn " + world.name + " " + name + " --step-size " + step_size,
              learned(entry, world, "softmax", "world", step_size));
       }

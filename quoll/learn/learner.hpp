@@ -60,6 +60,18 @@ class Learner {
   virtual void persist(Archive& archive) = 0;
 };
 
+/// What a method is, beyond its name.
+struct LearnerTraits {
+  /// Its values tend to the optimal ones however it explores; false: to those of its exploring.
+  bool off_policy = true;
+  /// Its table is planned by the solvers, to within their intervals.
+  bool plans = false;
+  /// Knows an upper and a lower value of each state, as starts of widest gap need.
+  bool has_bounds = false;
+  /// Tries only what may matter from where it starts: not every value is learned.
+  bool directed = false;
+};
+
 /// One line of the registry of learners.
 struct LearnerEntry {
   std::string_view method;
@@ -72,12 +84,9 @@ struct LearnerEntry {
   /// with the numbers of each update filled in; needs a world with a model. Nullptr for methods
   /// with memory, whose updates are more than one step's.
   std::vector<Update> (*replay)(const TabularSetup& setup, std::span<const Update> script);
-  /// Its values tend to the optimal ones however it explores; false: to those of its exploring.
-  bool off_policy = true;
-  /// Its table is planned by the solvers, to within their intervals.
-  bool plans = false;
-  /// Knows an upper and a lower value of each state, as starts of widest gap need.
-  bool has_bounds = false;
+  LearnerTraits traits{};
+  /// What the method needs of a world beyond a list of its states; nullptr = nothing.
+  Result<void> (*check)(const TabularSetup& setup) = nullptr;
 };
 std::span<const LearnerEntry> learners();
 

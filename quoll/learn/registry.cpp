@@ -18,6 +18,8 @@ std::span<const LearnerEntry> learners() {
       dyna_q_plus,
       prioritised_sweeping,
       empirical_model,
+      optimistic_model,
+      posterior_sampling,
   };
   return entries;
 }
@@ -47,6 +49,10 @@ Result<std::unique_ptr<Learner>> make_learner(const LearnSettings& settings, con
   if (!entry) return entry.error();
   const Result<TabularSetup> setup = resolve(settings, world, initial_rewards);
   if (!setup) return setup.error();
+  if ((*entry)->check != nullptr) {
+    const Result<void> fits = (*entry)->check(*setup);
+    if (!fits) return fits.error();
+  }
   return (*entry)->make(*setup);
 }
 

@@ -197,11 +197,11 @@ StableSetup stable(const LearnSettings& settings, const TabularSetup& setup,
   const World& world = *setup.world;
   StableSetup stable;
   stable.watch = settings.until_stable;
-  const bool proves = world.traits.deterministic && entry.off_policy &&
+  const bool proves = world.traits.deterministic && entry.traits.off_policy &&
                       (setup.step_size.one() || setup.rule != "standard");
   stable.visits = proves ? 1 : 100;
   // What solvers plan is as exact as their intervals are narrow.
-  const double exactly = entry.plans ? 1e-9 : 0.0;
+  const double exactly = entry.traits.plans ? 1e-9 : 0.0;
   stable.tolerance = settings.tolerance >= 0.0 ? settings.tolerance : proves ? exactly : 1e-3;
   if (stable.watch && world.mdp) {
     const std::vector<bool> reached = reachable(*world.mdp, setup.starts.states());
@@ -259,6 +259,7 @@ Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
   if (!entry) return entry.error();
   TabularSetup setup;
   setup.world = &world;
+  setup.method = settings.method;
   setup.rule = settings.rule;
   setup.seed = settings.seed;
   setup.precision = settings.precision;
@@ -276,7 +277,7 @@ Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
   const auto starting = starts(settings, world);
   if (!starting) return starting.error();
   setup.starts = *starting;
-  if (setup.starts.kind() == StartStates::Kind::widest_gap && !(*entry)->has_bounds) {
+  if (setup.starts.kind() == StartStates::Kind::widest_gap && !(*entry)->traits.has_bounds) {
     return Error{"--start", 0, 0,
                  "widest-gap needs a method with an upper and a lower value of each state; " +
                      settings.method + " has none",

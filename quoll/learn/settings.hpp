@@ -78,7 +78,7 @@ struct StableSetup {
 /// Everything the tabular loop needs, resolved and checked.
 struct TabularSetup {
   const World* world = nullptr;
-  std::string rule;
+  std::string method, rule;
   double discount = 1.0;
   std::uint64_t seed = 1;
   Exploration exploration;

@@ -65,4 +65,25 @@ std::pair<double, double> value_range(const RewardRange& rewards, double discoun
   return {low, high};
 }
 
+Result<void> finite_value_range(const World& world, const std::optional<RewardRange>& rewards,
+                                double discount, std::string_view method) {
+  const std::string name(method);
+  if (world.traits.players > 1) {
+    return Error{"--method", 0, 0, name + " is for worlds of one player; two move in " + world.name,
+                 ""};
+  }
+  if (!rewards) {
+    return Error{"--reward-range", 0, 0,
+                 name + " needs to know the smallest and largest reward, and " + world.name +
+                     " does not declare them: LOW,HIGH expected",
+                 ""};
+  }
+  if (std::isfinite(value_range(*rewards, discount).second)) return {};
+  return Error{"--discount", 0, 0,
+               name +
+                   " needs a largest value, and at discount 1 rewards on the way have none: a "
+                   "discount below 1 expected",
+               ""};
+}
+
 }  // namespace quoll

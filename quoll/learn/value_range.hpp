@@ -29,4 +29,8 @@ Result<std::optional<RewardRange>> reward_range(const World& world, std::string_
 /// between their two extremes, running / (1 - discount) and last. Infinite where unbounded.
 std::pair<double, double> value_range(const RewardRange& rewards, double discount);
 
+/// What methods that hope for the most need: a most, and one player. Error: says how to give it.
+Result<void> finite_value_range(const World& world, const std::optional<RewardRange>& rewards,
+                                double discount, std::string_view method);
+
 }  // namespace quoll

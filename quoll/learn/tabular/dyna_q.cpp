@@ -108,6 +108,6 @@ const LearnerEntry dyna_q_plus{
     true,
     make<true>,
     nullptr,
-    false};
+    {.off_policy = false}};
 
 }  // namespace quoll

@@ -75,7 +75,6 @@ const LearnerEntry empirical_model{
     true,
     make,
     nullptr,
-    true,
-    true};
+    {.plans = true}};
 
 }  // namespace quoll

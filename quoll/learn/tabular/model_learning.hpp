@@ -10,6 +10,11 @@
 
 namespace quoll {
 
+/// LearnerEntry::check of methods that hope for the most.
+inline Result<void> needs_value_range(const TabularSetup& setup) {
+  return finite_value_range(*setup.world, setup.rewards, setup.discount, setup.method);
+}
+
 /// True when this outcome is new.
 inline bool count(CountedModel& model, const Step& step) {
   return model.observe(step.pair, step.terminated ? the_end : step.next, step.reward,

@@ -13,5 +13,7 @@ extern const LearnerEntry dyna_q;
 extern const LearnerEntry dyna_q_plus;
 extern const LearnerEntry prioritised_sweeping;
 extern const LearnerEntry empirical_model;
+extern const LearnerEntry optimistic_model;
+extern const LearnerEntry posterior_sampling;
 
 }  // namespace quoll

@@ -1,0 +1,71 @@
+#pragma once
+// A model written state by state, for the solvers.
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "quoll/learn/tabular/counted_model.hpp"
+#include "quoll/model/mdp.hpp"
+
+namespace quoll {
+
+/// Writes choice after choice, state after state. The state after the last is the end of all ways.
+class ModelWriter {
+ public:
+  explicit ModelWriter(std::uint64_t states) : end_(static_cast<State>(states)) {
+    arrays_.choice_begin.reserve(states + 2);
+    arrays_.outcome_begin.push_back(0);
+  }
+
+  void begin_state() {
+    arrays_.choice_begin.push_back(arrays_.reward.size());
+    next_action_ = 0;
+  }
+
+  /// A choice that ends everything and is worth this much.
+  void leave(double value) {
+    outcome(end_, 1.0);
+    finish_choice(value);
+  }
+
+  /// A choice as it was seen; its mean reward, the bonus not counted.
+  void take(const CountedModel& model, std::uint64_t pair, double bonus) {
+    double reward = 0.0;
+    const std::uint32_t n = model.tried(pair);
+    model.each(pair, [&](const CountedModel::Outcome& seen) {
+      reward += seen.reward_sum;
+      arrays_.alternating = arrays_.alternating || seen.turn_passes;
+      outcome(seen.next, static_cast<double>(seen.count) / n);
+    });
+    finish_choice(reward / n + bonus);
+  }
+
+  Result<Mdp> model(double discount) {
+    begin_state();  // the end has no choices
+    begin_state();
+    arrays_.action_names = Names::numbered("", most_actions_);
+    arrays_.state_names = Names::numbered("", std::uint64_t{end_} + 1);
+    arrays_.discount = discount;
+    return Mdp::make(std::move(arrays_));
+  }
+
+  /// A choice outcome by outcome; `next` may be the_end. Then finish_choice() with its mean reward.
+  void outcome(State next, double probability) {
+    arrays_.next.push_back(next == the_end ? end_ : next);
+    arrays_.probability.push_back(probability);
+  }
+  void finish_choice(double reward) {
+    arrays_.reward.push_back(reward);
+    arrays_.action.push_back(next_action_++);
+    most_actions_ = std::max(most_actions_, next_action_);
+    arrays_.outcome_begin.push_back(arrays_.next.size());
+  }
+
+ private:
+  State end_;
+  Action next_action_ = 0, most_actions_ = 0;
+  MdpArrays arrays_;
+};
+
+}  // namespace quoll

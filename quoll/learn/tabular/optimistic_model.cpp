@@ -1,0 +1,214 @@
+// Optimistic model learning with two value tables. R-max: Brafman, Tennenholtz 2002; MBIE-EB:
+// Strehl, Littman 2008; the lower table as in Dann et al. 2019 ("Policy certificates").
+//
+//   upper  U(s,a) = Qmax if N(s,a) < m, else min(Qmax, r + b(s,a) + gamma sum P max_b U(s',b))
+//   lower  L(s,a) = Qmin where nothing was tried, else the optimum of the counted model
+//   1   act greedily on U, ties at random
+//   2   see (s, a, r, s'); count it
+//   3   plan U anew when N(s,a) reached m or a power of two
+//   4   the answer: the greedy policy of L
+//
+// Without noise m = 1 and b = 0, and planning is a search from the present state for the nearest
+// thing not known (way_to_unknown.hpp), only when there is nothing new to try where it stands.
+// Under noise b is the empirical Bernstein bonus (optimistic_values.hpp). Qmax, Qmin:
+// value_range(). The bonus is a heuristic: U is no proof. Memory: 32 bytes for each (s, a, s')
+// seen, 16 a pair.
+
+#include <algorithm>
+#include <cmath>
+
+#include "quoll/learn/tabular/method_engine.hpp"
+#include "quoll/learn/tabular/model_learning.hpp"
+#include "quoll/learn/tabular/optimistic_values.hpp"
+#include "quoll/learn/tabular/rules.hpp"
+#include "quoll/learn/tabular/way_to_unknown.hpp"
+
+namespace quoll {
+namespace {
+
+class OptimisticModel {
+ public:
+  using Value = double;
+  static constexpr bool looks_ahead = false;
+
+  OptimisticModel(const TabularSetup& setup, const ValueTable<double>& table)
+      : certain_(setup.world->traits.deterministic),
+        begin_(table.begin()),
+        starts_(setup.starts.states().begin(), setup.starts.states().end()),
+        pessimism_(known_pairs_only(setup)),
+        optimism_(optimism_of(setup)),
+        model_(table.pairs()),
+        search_(table.states()),
+        value_(table.states(), optimism_.most),
+        pair_value_(table.pairs(), optimism_.most) {}
+
+  // 1
+  Chosen choose(const ValueTable<double>& table, State s, const ChoiceDraws& draws, std::uint64_t) {
+    if (!certain_) {
+      if (stale_) improve_optimistic_values(model_, begin_, optimism_, value_, pair_value_);
+      stale_ = false;
+      return {greedy(s, draws.tie()), true};
+    }
+    const Action untried = any_untried(table, s, draws.tie());
+    if (untried != no_action) return {untried, true};
+    if (taken_ == way_.size() || way_[taken_] < begin_[s] || way_[taken_] >= begin_[s + 1]) {
+      way_ = search_.find(model_, begin_, s, optimism_.most, optimism_.discount);
+      taken_ = 0;
+    }
+    if (way_.empty()) {
+      // All that can be reached is known, and no end is among it.
+      if (stale_) pair_value_ = plan(model_, begin_, hope()).pair_value;
+      stale_ = false;
+      return {greedy(s, draws.tie()), false};
+    }
+    return {static_cast<Action>(way_[taken_++] - begin_[s]), search_.explores()};
+  }
+
+  Learned learn(const Step& step, ValueTable<double>& table, const ChoiceDraws&) {
+    // 2
+    known_ += 1;
+    count(model_, step);
+    // 3
+    const std::uint32_t n = model_.tried(step.pair);
+    stale_ = stale_ || n == optimism_.known_after || (n & (n - 1)) == 0;
+    // What is told: how far the one step is from what the table holds, which is not in use.
+    const double best_next = step.carry == 0.0 ? 0.0 : table.best(step.next);
+    const double target =
+        model_.backup(step.pair, optimism_.discount, [&](State y) { return table.best(y); });
+    table.set(step.state, step.pair, target);
+    return {best_next, target, 1.0};
+  }
+
+  void end_episode(ValueTable<double>&) {
+    way_.clear();
+    taken_ = 0;
+  }
+
+  /// The start with the largest U - L; one in ten at random. Both tables are planned when a tenth
+  /// more is known. One draw.
+  State start(Rng& rng) {
+    const std::uint64_t bits = rng.next();
+    if (known_ >= next_gaps_) {
+      next_gaps_ = known_ + known_ / 10 + 1;
+      widest_ = find_widest();
+    }
+    if ((bits >> 32) >= (std::uint64_t{1} << 32) / 10) return widest_;
+    return starts_[scale(static_cast<std::uint32_t>(bits),
+                         static_cast<std::uint32_t>(starts_.size()))];
+  }
+
+  // 4
+  void estimates(const ValueTable<double>& table, Estimates& out) const {
+    tell(plan(model_, table.begin(), pessimism_), out);
+  }
+
+  void persist(Archive& archive) {
+    model_.persist(archive, begin_.size() - 1);
+    const std::size_t states = value_.size(), pairs = pair_value_.size();
+    archive("stale", stale_);
+    archive("value", value_);
+    archive("pair_value", pair_value_);
+    archive("way", way_);
+    archive("taken", taken_);
+    archive("known", known_);
+    archive("next_gaps", next_gaps_);
+    archive("widest", widest_);
+    bool fits = widest_ < states && value_.size() == states && pair_value_.size() == pairs &&
+                taken_ <= way_.size();
+    if (fits) return;
+    archive.fail("values of another world");
+    value_.resize(states);
+    pair_value_.resize(pairs);
+    way_.clear();
+    taken_ = 0;
+    widest_ = starts_.front();
+  }
+
+ private:
+  static Optimism optimism_of(const TabularSetup& setup) {
+    Optimism optimism;
+    const MethodSettings& given = setup.of_method;
+    const double horizon = setup.discount < 1.0 ? 1.0 / (1.0 - setup.discount) : 1000.0;
+    const double range = setup.rewards->high() - std::min(setup.rewards->low(), 0.0);
+    optimism.discount = setup.discount;
+    optimism.most = value_range(*setup.rewards, setup.discount).second;
+    optimism.variance = given.bonus_variance;
+    optimism.range_roots = given.bonus_range * range * std::sqrt(horizon);
+    optimism.known_after =
+        static_cast<std::uint32_t>(std::max<std::uint64_t>(given.known_after, 1));
+    optimism.precision = 1e-3 * range;
+    return optimism;
+  }
+
+  // What U is without noise.
+  Planning hope() const {
+    Planning planning = pessimism_;
+    planning.unknown = optimism_.most;
+    planning.known_after = optimism_.known_after;
+    return planning;
+  }
+
+  State find_widest() {
+    if (certain_) {
+      value_ = plan(model_, begin_, hope()).state_value;
+    } else {
+      improve_optimistic_values(model_, begin_, optimism_, value_, pair_value_);
+    }
+    const std::vector<double> lower = plan(model_, begin_, pessimism_).state_value;
+    const auto gap = [&](State s) { return value_[s] - lower[s]; };
+    State widest = starts_.front();
+    for (const State s : starts_) {
+      if (gap(s) > gap(widest)) widest = s;
+    }
+    return widest;
+  }
+
+  Action greedy(State s, std::uint32_t tie) const {
+    const RaggedRows<double> rows{begin_.data()};
+    const RowView<double> row = rows.view(pair_value_.data(), s);
+    return rows.pick(pair_value_.data(), s, row, tie);
+  }
+
+  Action any_untried(const ValueTable<double>& table, State s, std::uint32_t tie) const {
+    std::uint32_t untried = 0;
+    for (std::uint64_t p = begin_[s]; p < begin_[s + 1]; ++p) untried += model_.tried(p) == 0;
+    if (untried == 0) return no_action;
+    std::uint32_t left = scale(tie, untried);
+    for (Action a = 0; a < table.actions(s); ++a) {
+      if (model_.tried(begin_[s] + a) == 0 && left-- == 0) return a;
+    }
+    return no_action;
+  }
+
+  bool certain_;
+  std::vector<std::uint64_t> begin_;
+  std::vector<State> starts_;
+  Planning pessimism_;
+  Optimism optimism_;
+  CountedModel model_;
+  WayToUnknown search_;
+  std::vector<double> value_, pair_value_;  // U
+  std::vector<std::uint64_t> way_;          // pairs still to take, without noise
+  std::uint64_t taken_ = 0;
+  bool stale_ = false;  // U is not up to date
+  std::uint64_t known_ = 0, next_gaps_ = 0;
+  State widest_ = 0;
+};
+
+std::unique_ptr<Learner> make(const TabularSetup& setup) {
+  return std::make_unique<MethodLearner<OptimisticModel>>(setup);
+}
+
+}  // namespace
+
+const LearnerEntry optimistic_model{"optimistic-model",
+                                    "",
+                                    "goes where the counted model leaves most to hope for: R-max "
+                                    "without noise, bonuses under noise",
+                                    true,
+                                    make,
+                                    nullptr,
+                                    {.plans = true, .has_bounds = true, .directed = true},
+                                    needs_value_range};
+
+}  // namespace quoll
