@@ -35,7 +35,7 @@ class DynaQ {
         model_(table.pairs()),
         last_(plus ? table.pairs() : 0) {}
 
-  Learned learn(const Step& step, ValueTable<double>& table, const ChoiceDraws& draws) {
+  Change learn(const Step& step, ValueTable<double>& table, const ChoiceDraws& draws) {
     // 1
     const double best_next = step.carry == 0.0 ? 0.0 : table.best(step.next);
     const double target = step.reward + step.carry * best_next;

@@ -30,7 +30,7 @@ class EmpiricalModel {
         acts_on_values_(setup.exploration.kind != Exploration::Kind::uniform ||
                         setup.stable.watch) {}
 
-  Learned learn(const Step& step, ValueTable<double>& table, const ChoiceDraws&) {
+  Change learn(const Step& step, ValueTable<double>& table, const ChoiceDraws&) {
     // 1
     count(model_, step);
     // 2

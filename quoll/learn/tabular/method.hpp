@@ -26,7 +26,7 @@ struct Step {
 };
 
 /// How the value of the pair just left was changed, for whoever watches.
-struct Learned {
+struct Change {
   double best_next = 0.0;  ///< what the target took as the value of the next state
   double target = 0.0;
   double step_size = 1.0;
@@ -43,7 +43,7 @@ concept Method = requires(M method, ValueTable<typename M::Value>& table, const 
                           const ChoiceDraws& draws, Archive& archive) {
   typename M::Value;
   { M::looks_ahead } -> std::convertible_to<bool>;
-  { method.learn(step, table, draws) } -> std::same_as<Learned>;
+  { method.learn(step, table, draws) } -> std::same_as<Change>;
   method.end_episode(table);
   method.persist(archive);
 };

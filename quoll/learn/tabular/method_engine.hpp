@@ -162,7 +162,7 @@ class MethodLearner final : public Learner {
       }
     }
     const double old = double{table_[step.pair]};
-    const Learned learned = method_.learn(step, table_, draws);
+    const Change learned = method_.learn(step, table_, draws);
     if (reverse_.active()) reverse_.observe(step.state, step.next, step.reward, step.terminated);
     // 3. Go on from s', or begin the next episode.
     walk_.episode_return += step.reward;
@@ -230,7 +230,7 @@ class MethodLearner final : public Learner {
     }
   }
 
-  void watch(const Step& step, double old, const Learned& learned) {
+  void watch(const Step& step, double old, const Change& learned) {
     const double value = double{table_[step.pair]};
     if (!(std::fabs(value) <= Guard::hopeless)) {
       progress_.halt = LearnProgress::Halt::diverged;

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "quoll/env/table.hpp"
 #include "quoll/learn/settings.hpp"
 #include "quoll/learn/tabular/method.hpp"
 #include "quoll/learn/tabular/rule.hpp"
@@ -18,7 +19,7 @@ class OneStep {
   OneStep(const TabularSetup& setup, const ValueTable<Value>& table)
       : rule_(setup, PairLayout{0, table.pairs()}, table.begin()), step_size_(setup.step_size) {}
 
-  Learned learn(const Step& step, ValueTable<Value>& table, const ChoiceDraws& draws) {
+  Change learn(const Step& step, ValueTable<Value>& table, const ChoiceDraws& draws) {
     const double best_next = step.carry == 0.0 ? 0.0 : table.best(step.next);
     const Revision<Value> revision =
         revise(rule_, step_size_, step.pair, table[step.pair], step.reward, step.carry, best_next,

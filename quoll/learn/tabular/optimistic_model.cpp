@@ -64,7 +64,7 @@ class OptimisticModel {
     return {static_cast<Action>(way_[taken_++] - begin_[s]), search_.explores()};
   }
 
-  Learned learn(const Step& step, ValueTable<double>& table, const ChoiceDraws&) {
+  Change learn(const Step& step, ValueTable<double>& table, const ChoiceDraws&) {
     // 2
     known_ += 1;
     count(model_, step);

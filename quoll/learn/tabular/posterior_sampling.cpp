@@ -50,7 +50,7 @@ class PosteriorSampling {
   }
 
   // 3
-  Learned learn(const Step& step, ValueTable<double>& table, const ChoiceDraws&) {
+  Change learn(const Step& step, ValueTable<double>& table, const ChoiceDraws&) {
     count(model_, step);
     const std::uint32_t n = model_.tried(step.pair);
     stale_ = stale_ || (n & (n - 1)) == 0;

@@ -52,7 +52,7 @@ class PrioritisedSweeping {
     }
   }
 
-  Learned learn(const Step& step, ValueTable<double>& table, const ChoiceDraws&) {
+  Change learn(const Step& step, ValueTable<double>& table, const ChoiceDraws&) {
     // 1
     const double best_next = step.carry == 0.0 ? 0.0 : table.best(step.next);
     if (count(model_, step) && !step.terminated) {

@@ -51,10 +51,10 @@ class ReverseReplay {
   }
 
   // 1, 2
-  Learned learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {
+  Change learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {
     episode_.push_back(
         {step.pair, step.reward, step.carry, step.state, step.next, draws.rounding()});
-    const Learned learned = update(episode_.back(), table);
+    const Change learned = update(episode_.back(), table);
     if (episode_.size() == block_) end_episode(table);
     return learned;
   }
@@ -75,7 +75,7 @@ class ReverseReplay {
   }
 
  private:
-  Learned update(const Moment& e, ValueTable<V>& table) {
+  Change update(const Moment& e, ValueTable<V>& table) {
     const double best_next = e.carry == 0.0 ? 0.0 : table.best(e.next);
     const double target = e.reward + e.carry * best_next;
     const double alpha = step_size_.at(table.visits(e.pair));
