@@ -7,6 +7,7 @@
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
 #include "quoll/cli/initial_rewards.hpp"
+#include "quoll/cli/learn_certificate.hpp"
 #include "quoll/cli/learn_explain.hpp"
 #include "quoll/cli/learn_files.hpp"
 #include "quoll/cli/learn_report.hpp"
@@ -24,7 +25,7 @@ struct LearnOptions {
   GivenSettings limits;  // what may be given anew
   unsigned threads = 0;
   bool explain = false;
-  std::string save, resume, save_every;
+  std::string save, resume, save_every, certificate;
 
   std::string resume_file() const { return resume.empty() ? "" : run_file(resume); }
 };
@@ -81,13 +82,23 @@ Result<void> same_world(const LearnOptions& options, const Result<World>& given,
   return given ? check_same_world(run, options.resume_file(), *given) : given.error();
 }
 
-Result<Run> resume(const LearnOptions& options, bool watch) {
+Result<Run> resume(const LearnOptions& options, const RunSettings& limits, bool watch) {
   const Result<World> given = options.world.open();
   Result<Run> run = Run::load(options.resume_file(), watch, given ? &*given : nullptr);
   if (!run) return run;
   Result<void> same = same_settings(options, *run);
   if (same) same = same_world(options, given, *run);
   if (!same) return same.error();
+  const RunSettings& saved = run->settings();
+  if (!limits.certified.empty() &&
+      (limits.certified != saved.certified || limits.by_model != saved.by_model)) {
+    return Error{"--until", 0, 0,
+                 saved.certified.empty()
+                     ? "the saved run did not watch for a certificate; a resumed run keeps its goal"
+                     : "the saved run has certified:" + saved.certified +
+                           (saved.by_model ? ",model" : "") + "; a resumed run keeps its goal",
+                 ""};
+  }
   return run;
 }
 
@@ -105,8 +116,15 @@ Result<RunSettings> limits_of(const LearnOptions& options) {
   limits.describe_limits(list);
   const Result<void> applied = options.limits.apply(list.settings());
   if (!applied) return applied.error();
-  if (!limits.until.empty() && limits.until != "stable") {
-    return Error{"--until", 0, 0, "stable expected, not '" + limits.until + "'", "stable"};
+  const bool certified = limits.until.rfind("certified:", 0) == 0;
+  if (certified) {
+    const Result<void> taken = take_certified(limits.until, limits);
+    if (!taken) return taken.error();
+  } else if (!limits.until.empty() && limits.until != "stable") {
+    return Error{
+        "--until", 0, 0,
+        "stable, certified:EPS or certified:EPS,model expected, not '" + limits.until + "'",
+        nearest(limits.until, std::vector<std::string>{"stable", "certified:0.01"})};
   }
   if (!limits.time.empty()) {
     const Result<double> seconds = parse_duration(limits.time, "--time");
@@ -119,11 +137,13 @@ Result<Run> open_run(const LearnOptions& options, const RunSettings& limits) {
   const bool watch = !limits.has_limit() || limits.until == "stable";
   const Result<void> fits = options.how.check_discount();
   if (!fits) return fits.error();
-  if (!options.resume.empty()) return resume(options, watch);
+  if (!options.resume.empty()) return resume(options, limits, watch);
   RunSettings settings;
   const Result<void> applied = options.how.apply(settings_of(settings));
   if (!applied) return applied.error();
   settings.learn.until_stable = watch;
+  settings.certified = limits.certified;
+  settings.by_model = limits.by_model;
   const Result<WorldSource> source = options.world.source();
   if (!source) return source.error();
   const Result<World> world = options.world.open(options.how);
@@ -173,6 +193,7 @@ Exit exit_status(const Run& run, const RunSettings& limits) {
       return goal_missed;
     }
     if (limits.until == "stable" && stop != Stop::stable) return goal_missed;
+    if (!limits.certified.empty() && stop != Stop::certified) return goal_missed;
   }
   return done;
 }
@@ -186,7 +207,10 @@ Exit tell(const Run& run, const LearnOptions& options, const RunSettings& limits
   const RunResult result = run.result(true);
   const std::string text = options.output.json ? learn_json(run, result, story)
                                                : learn_text(run, result, stdout_style(), story);
-  return print(text) ? done : user_error;
+  if (!print(text)) return user_error;
+  if (options.certificate.empty()) return done;
+  const Result<void> written = write_experience(options.certificate, run, result);
+  return written ? done : fail(written.error());
 }
 
 Exit learn(const LearnOptions& options) {
@@ -240,6 +264,8 @@ void declare_learn(Options& options) {
   options.flag("--explain", &given->explain, "show each update with its numbers");
   options.option("--save", &given->save, "FILE", "write the run to a file when it ends");
   options.option("--save-every", &given->save_every, "TIME", "and every so often, such as 60s");
+  options.option("--certificate", &given->certificate, "FILE",
+                 "write what --until certified:EPS found, for verify");
   options.option("--resume", &given->resume, "FILE",
                  "go on with a saved run, a file or a run folder");
   given->output.declare(options, "a folder for settings.toml, records.csv and run.quoll");

@@ -1,6 +1,7 @@
 // The JSON object of `learn` (docs/json.md).
 
 #include "quoll/base/json.hpp"
+#include "quoll/cli/learn_certificate.hpp"
 #include "quoll/cli/learn_report.hpp"
 
 namespace quoll::cli {
@@ -48,24 +49,6 @@ void write_policy(JsonWriter& json, const Mdp& mdp, const std::vector<Action>& p
       json.member("action", mdp.action_name(mdp.choice_begin(state) + policy[state]));
     json.end_object();
   });
-}
-
-void write_certificate(JsonWriter& json, const Run& run, const RunResult& result) {
-  const std::optional<Optimality>& judged = result.seeds.front().optimality;
-  if (!result.exact || !judged || !run.entry().sound) {
-    json.null_member("certificate");
-    return;
-  }
-  const Mdp& mdp = *run.world().mdp;
-  double lower = 0.0, upper = 0.0;
-  for (std::uint64_t i = 0; i < mdp.start().size(); ++i) {
-    lower += mdp.start_probability(i) * result.exact->lower[mdp.start()[i]];
-    upper += mdp.start_probability(i) * result.exact->upper[mdp.start()[i]];
-  }
-  json.key("certificate").begin_object();
-  json.member("lower", lower).member("upper", upper).member("gap", judged->regret);
-  json.member("basis", "model").null_member("confidence");
-  json.key("assumptions").begin_array().end_array().end_object();
 }
 
 void write_evaluation(JsonWriter& json, const Run& run, const RunResult& result) {
@@ -187,7 +170,7 @@ std::string learn_json(const Run& run, const RunResult& result, const LearnStory
   write_impossible(json, mdp, first.impossible);
   write_first_difference(json, story);
   write_least_visited(json, run, result, story);
-  write_certificate(json, run, result);
+  write_learned_certificate(json, run, result);
   write_evaluation(json, run, result);
   write_runs(json, result);
   if (story.coming) write_updates(json, run, *story.coming, story.all);

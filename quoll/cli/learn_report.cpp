@@ -1,5 +1,6 @@
 #include "quoll/cli/learn_report.hpp"
 #include "quoll/cli/evaluate_sample.hpp"
+#include "quoll/cli/learn_certificate.hpp"
 
 #include <fmt/format.h>
 
@@ -66,10 +67,13 @@ std::string stop_sentence(const Run& run, const SeedResult& seed, const LearnSto
              (proved ? ": proved, Q is the fixed point of its update" : ": stable, not proved") +
              (run.world().mdp ? "" : "; over the states met so far");
     }
+    case Stop::certified:
+      return "certified" + after;
     case Stop::diverged:
       return "stopped" + after + ": the values have left every bound";
     case Stop::budget:
-      return "not stable" + after + ": the budget is used up";
+      return (run.settings().certified.empty() ? "not stable" : "not certified") + after +
+             ": the budget is used up";
     case Stop::interrupted:
       return "interrupted" + after;
     default:
@@ -243,7 +247,7 @@ std::string learned_text(const Run& run, const RunResult& result, const Terminal
 }  // namespace
 
 bool missed_stable(const SeedResult& seed, const LearnStory& story) {
-  return seed.stop == Stop::budget ||
+  return (seed.stop == Stop::budget && !seed.certificate) ||
          (story.until_stable &&
           (seed.stop == Stop::steps || seed.stop == Stop::episodes || seed.stop == Stop::time));
 }
@@ -290,6 +294,7 @@ std::string learn_text(const Run& run, const RunResult& result, const TerminalSt
   if (run.world().mdp) text += learned_text(run, result, style, story);
   text += least_visited_text(run, result, story);
   text += impossible_text(run, first.impossible);
+  text += experience_text(run, result);
   text += verdict(run, result, first);
   text += curve_line(run, style);
   if (first.played.episodes > 0) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "quoll/base/text.hpp"
 #include "quoll/model/digest.hpp"
 #include "quoll/model/graph.hpp"
+#include "quoll/solve/evaluate.hpp"
 #include "quoll/solve/solver.hpp"
 
 namespace quoll {
@@ -88,6 +90,11 @@ Result<Run> Run::start(RunSettings settings, WorldSource source, const World& wo
                      " on do not exist: the last one is " + std::to_string(last),
                  ""};
   }
+  if (run.settings_.by_model && !run.settings_.certified.empty() && !world.mdp) {
+    return Error{"--until", 0, 0,
+                 "the model of " + world.name + " is not known; certified:EPS goes by experience",
+                 "certified:" + run.settings_.certified};
+  }
   for (std::uint64_t index = 0; index < run.settings_.seeds; ++index) {
     Result<Training> training =
         Training::make(run.settings_, index, *run.world_, run.initial_rewards_);
@@ -104,13 +111,20 @@ double Run::discount() const {
 bool Run::advance(const RunSettings& limits_asked, double pause,
                   const std::function<bool(const RunProgress&)>& keep_going, const Sink& sink) {
   using Clock = std::chrono::steady_clock;
-  Limits limits{limits_asked.steps, limits_asked.episodes, 0.0, 0};
+  Limits limits;
+  limits.steps = limits_asked.steps;
+  limits.episodes = limits_asked.episodes;
   if (!limits_asked.time.empty()) {
     const Result<double> seconds = parse_duration(limits_asked.time, "--time");
     limits.seconds = seconds ? *seconds : 0.0;
   }
   const bool bounded = limits.steps > 0 || limits.episodes > 0 || limits.seconds > 0.0;
   if (!bounded) limits.budget = default_budget(*world_);
+  // Under noise a certificate takes far more steps than being right.
+  if (!bounded && !settings_.certified.empty() && !world_->traits.deterministic) {
+    limits.budget = std::max<std::uint64_t>(limits.budget, 1'000'000'000);
+  }
+  if (settings_.by_model && !settings_.certified.empty()) limits.referee = referee();
 
   const Clock::time_point begun = Clock::now();
   const auto since = [&] { return std::chrono::duration<double>(Clock::now() - begun).count(); };
@@ -151,6 +165,35 @@ bool Run::advance(const RunSettings& limits_asked, double pause,
   });
 }
 
+// Whether the greedy policy of a learner loses at most the gap asked for, by the model.
+std::function<bool(const Learner&)> Run::referee() const {
+  SolveSettings precisely;
+  precisely.discount = discount();
+  precisely.width = 1e-9;
+  const auto exact = std::make_shared<const Result<Solution>>(solve(*world_->mdp, precisely));
+  const CertifyGoal goal = certify_goal(settings_);
+  const std::vector<State> from = starts();
+  return [this, exact, goal, from](const Learner& learner) {
+    if (!*exact) return false;
+    const Mdp& mdp = *world_->mdp;
+    const std::vector<Action> policy = greedy_policy(learner.estimates());
+    const Result<Evaluation> worth = evaluate(mdp, policy, discount());
+    if (!worth) return false;
+    double scale = HUGE_VAL, loss = 0.0;
+    for (const State s : mdp.start()) scale = std::min(scale, std::fabs((*exact)->lower[s]));
+    const std::vector<bool> reached = reachable(mdp, from);
+    const auto lose = [&](State s) { loss = std::max(loss, (*exact)->upper[s] - worth->lower[s]); };
+    if (goal.everywhere) {
+      for (State s = 0; s < mdp.states(); ++s) {
+        if (reached[s] && !mdp.terminal(s)) lose(s);
+      }
+    } else {
+      for (const State s : mdp.start()) lose(s);
+    }
+    return loss <= goal.gap * (goal.relative ? scale : 1.0);
+  };
+}
+
 std::vector<State> Run::starts() const {
   const Result<TabularSetup> setup = resolve(settings_.learn, *world_);
   if (!setup) return {};
@@ -186,6 +229,10 @@ RunResult Run::result(bool solve_too) const {
     seed.stop = training.stop();
     seed.impossible = progress.impossible;
     seed.policy = greedy_policy(training.learner().estimates());
+    if (training.certifier() != nullptr) {
+      seed.certificate = training.certifier()->certificate();
+      if (seed.certificate->reached) seed.policy = seed.certificate->policy;
+    }
     if (mdp && result.exact && entry_->sound) {
       seed.optimality = judge(*mdp, *result.exact, seed.policy, from, discount());
       count_optimal(*mdp, *result.exact, from, seed);

@@ -41,6 +41,8 @@ struct SeedResult {
   std::optional<Optimality> optimality;
   /// States whose chosen action is optimal, among the states the verdict is about.
   std::uint64_t optimal_states = 0, judged_states = 0;
+  /// From experience alone, where it was asked for; its policy is the seed's if it was reached.
+  std::optional<ExperienceCertificate> certificate;
   Played played;
 };
 
@@ -87,6 +89,7 @@ class Run {
  private:
   void persist(Archive& archive);
   std::vector<State> starts() const;
+  std::function<bool(const Learner&)> referee() const;
 
   RunSettings settings_;
   WorldSource source_;

@@ -9,6 +9,12 @@ namespace quoll {
 void RunSettings::describe(Describer& d) {
   learn.describe(d);
   d("seeds", seeds, 1, 1e6, "how many seeds to run, from --seed on");
+  d.choice("certify", certify, certify_names,
+           "certified: the states asked about, where episodes begin or all");
+  d.choice("successors", successors, successors_names,
+           "certified: any state may follow a move, or only those that the world lists");
+  d("confidence", confidence, 0.0, 1.0 - 1e-12,
+    "certified: in noisy worlds, of all checks together");
   d("force", force, "learn although values without discount are not defined");
   d("evaluation_episodes", evaluation_episodes, 0, 1e9,
     "greedy episodes played at the end for the mean return");
@@ -18,14 +24,54 @@ void RunSettings::describe_limits(Describer& d) {
   d("steps", steps, "stop after so many steps in all; 0 = no limit");
   d("episodes", episodes, "stop after so many episodes in all; 0 = no limit");
   d("time", time, "stop after so much time, such as 10s, 2m or 500ms");
-  d("until", until, "stop when a goal is reached: stable");
+  d("until", until,
+    "stop when a goal is reached: stable, certified:EPS or certified:EPS%, with ,model from the "
+    "model");
 }
 
 void RunSettings::persist(Archive& archive) {
   archive("learn", learn);
+  archive("certified", certified);
+  archive("by_model", by_model);
+  archive("certify", certify);
+  archive("successors", successors);
+  archive("confidence", confidence);
+  if (certify > CertifyScope::all || successors > Successors::listed ||
+      !(confidence >= 0.0 && confidence < 1.0)) {
+    archive.fail("an unknown choice for what is certified");
+  }
   archive("seeds", seeds);
   archive("force", force);
   archive("evaluation_episodes", evaluation_episodes);
+}
+
+Result<void> take_certified(std::string_view until, RunSettings& settings) {
+  constexpr std::string_view word = "certified:", model = ",model";
+  std::string_view gap = until.substr(word.size());
+  settings.by_model = gap.size() >= model.size() && gap.substr(gap.size() - model.size()) == model;
+  if (settings.by_model) gap.remove_suffix(model.size());
+  settings.certified = gap;
+  const bool share = !gap.empty() && gap.back() == '%';
+  if (share) gap.remove_suffix(1);
+  const auto number = parse_number(gap);
+  if (number && *number >= 0.0 && std::isfinite(*number)) return {};
+  return Error{"--until", 0, 0,
+               "a gap of at least 0 such as certified:0.1, certified:5% or certified:0.1,model "
+               "expected, not '" +
+                   std::string(until) + "'",
+               ""};
+}
+
+CertifyGoal certify_goal(const RunSettings& settings) {
+  CertifyGoal goal;
+  std::string_view gap = settings.certified;
+  goal.relative = !gap.empty() && gap.back() == '%';
+  if (goal.relative) gap.remove_suffix(1);
+  goal.gap = parse_number(gap).value_or(0.0) * (goal.relative ? 0.01 : 1.0);
+  goal.everywhere = settings.certify == CertifyScope::all;
+  goal.listed = settings.successors == Successors::listed;
+  goal.confidence = settings.confidence;
+  return goal;
 }
 
 Result<double> parse_duration(std::string_view text, std::string_view place) {

@@ -4,18 +4,30 @@
 #include <cstdint>
 #include <string>
 
+#include "quoll/learn/certifier.hpp"
 #include "quoll/learn/settings.hpp"
 
 namespace quoll {
 
+enum class CertifyScope : std::uint8_t { start, all };
+inline constexpr std::string_view certify_names[] = {"start", "all"};
+enum class Successors : std::uint8_t { states, listed };
+inline constexpr std::string_view successors_names[] = {"states", "listed"};
+
 struct RunSettings {
   LearnSettings learn;
+  /// What "--until certified:EPS" asks for: EPS, or EPS% of the start value; empty = nothing.
+  std::string certified;
+  bool by_model = false;  ///< certified by the model, not by experience
+  CertifyScope certify = CertifyScope::start;
+  Successors successors = Successors::states;
+  double confidence = 0.95;
 
   // Limits: they count the whole run, per seed, resumed parts included.
   std::uint64_t steps = 0;     ///< 0 = no limit
   std::uint64_t episodes = 0;  ///< 0 = no limit
   std::string time;            ///< "10s", "2m", "500ms"; empty = no limit
-  std::string until;           ///< "stable" or empty
+  std::string until;           ///< "stable", "certified:EPS", "certified:EPS,model" or empty
   std::uint64_t seeds = 1;     ///< seeds N .. N + seeds - 1
   unsigned threads = 0;        ///< 0 = all processors
   bool force = false;          ///< learn although undiscounted values are undefined
@@ -29,6 +41,13 @@ struct RunSettings {
 
   bool has_limit() const { return steps > 0 || episodes > 0 || !time.empty() || !until.empty(); }
 };
+
+/// Takes "certified:EPS", "certified:EPS%" or either with ",model" apart into the settings. Error:
+/// something else, a gap that is not positive in a noisy world or negative.
+Result<void> take_certified(std::string_view until, RunSettings& settings);
+
+/// The goal that the settings name.
+CertifyGoal certify_goal(const RunSettings& settings);
 
 /// "10s", "1.5m", "2h", "500ms", or a plain number of seconds.
 Result<double> parse_duration(std::string_view text, std::string_view place);

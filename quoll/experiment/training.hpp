@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string_view>
+#include <vector>
 
 #include "quoll/experiment/learning_curve.hpp"
 #include "quoll/experiment/record.hpp"
@@ -21,6 +23,7 @@ enum class Stop : std::uint8_t {
   episodes,     ///< the episodes asked for are done
   time,         ///< the time asked for is over
   stable,       ///< nothing changes any more
+  certified,    ///< the bounds are as close as was asked for
   diverged,     ///< a value that is no number, or beyond 1e30
   budget,       ///< not stable within the default budget: a goal was missed
   interrupted,  ///< somebody asked to stop
@@ -32,6 +35,8 @@ struct Limits {
   std::uint64_t steps = 0, episodes = 0;
   double seconds = 0.0;
   std::uint64_t budget = 0;  ///< steps after which a goal counts as missed
+  /// Asked every so often whether the learner's policy is good enough; empty = never.
+  std::function<bool(const Learner&)> referee;
 };
 
 class Training {
@@ -53,14 +58,21 @@ class Training {
   double seconds() const { return seconds_; }  ///< spent learning, resumed parts included
   Stop stop() const { return stop_; }
 
+  /// What watches the experience, if a certificate is asked for.
+  const Certifier* certifier() const { return certifier_ ? &*certifier_ : nullptr; }
+
   void persist(Archive& archive);
 
  private:
+  LearnProgress advance_by(std::uint64_t steps);
   std::uint64_t chunk(const Limits& limits, const LearnProgress& now) const;
 
   std::uint64_t seed_ = 1;
   std::uint32_t index_ = 0;
   std::unique_ptr<Learner> learner_;
+  std::optional<Certifier> certifier_;
+  std::vector<Update> log_;     // for the certifier
+  std::uint64_t refereed_ = 0;  // step of the referee's next look
   LearningCurve curve_;
   double seconds_ = 0.0;
   Stop stop_ = Stop::none;

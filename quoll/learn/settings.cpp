@@ -184,9 +184,9 @@ Result<double> initial_value(const LearnSettings& settings, const TabularSetup& 
 
 std::uint64_t episode_limit(const LearnSettings& settings, const World& world, double discount) {
   if (settings.episode_steps > 0) return settings.episode_steps;
+  if (settings.start == "each-pair") return 1;
   if (world.episode_steps > 0) return world.episode_steps;
   if (settings.start == "world") return 2000;
-  if (settings.start == "each-pair") return 1;
   // Chosen starts are wasted in long episodes: one horizon, at most 32 steps.
   const double horizon = discount < 1.0 ? std::ceil(1.0 / (1.0 - discount)) : 32.0;
   return static_cast<std::uint64_t>(std::min(horizon, 32.0));

@@ -2,6 +2,8 @@
 // The model that experience shows: how often each pair was tried, what followed how often, and what
 // it earned on average. What was never seen is not in it.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -26,6 +28,9 @@ class CountedModel {
     std::uint32_t link = none;  // of the pair's next outcome
 
     double mean_reward() const { return reward_sum / count; }
+    bool gave(double reward) const {
+      return std::fabs(mean_reward() - reward) <= 1e-9 * std::max(1.0, std::fabs(reward));
+    }
     void persist(Archive& archive) {
       archive("next", next);
       archive("turn_passes", turn_passes);
@@ -44,13 +49,15 @@ class CountedModel {
   std::uint32_t tried(std::uint64_t pair) const { return tried_[pair]; }
 
   /// Counts a step; `next` = the_end where it ended the episode. True when this outcome of the pair
-  /// is new. Cost: the outcomes of the pair seen so far.
+  /// is new. Ends of different reward are different outcomes, sixteen at most. Cost: the outcomes
+  /// of the pair seen so far.
   bool observe(std::uint64_t pair, State next, double reward, bool turn_passes = false) {
     ++tried_[pair];
     std::uint32_t* at = &first_[pair];
-    while (*at != none) {
+    for (int ends = 0; *at != none;) {
       Outcome& outcome = outcomes_[*at];
-      if (outcome.next == next && outcome.turn_passes == turn_passes) {
+      if (outcome.next == next && outcome.turn_passes == turn_passes &&
+          (next != the_end || outcome.gave(reward) || ++ends == most_ends)) {
         ++outcome.count;
         outcome.reward_sum += reward;
         return false;
@@ -102,6 +109,7 @@ class CountedModel {
   }
 
  private:
+  static constexpr int most_ends = 16;
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
   std::vector<std::uint32_t> first_;  // per pair: its first outcome

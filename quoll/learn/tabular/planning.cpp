@@ -36,6 +36,21 @@ Result<Mdp> model_of(const CountedModel& model, const std::vector<std::uint64_t>
   return writer.model(planning.discount);
 }
 
+// The solver's choices of a state are its known pairs, in order, then ways out.
+std::vector<Action> policy_of(const CountedModel& model, const std::vector<std::uint64_t>& begin,
+                              const Planning& planning, const Solution& solution) {
+  std::vector<Action> policy(begin.size() - 1, no_action);
+  for (State s = 0; s < policy.size(); ++s) {
+    Action left = solution.policy[s];
+    for (std::uint64_t pair = begin[s]; pair < begin[s + 1]; ++pair) {
+      if (model.tried(pair) < planning.known_after || left-- > 0) continue;
+      policy[s] = static_cast<Action>(pair - begin[s]);
+      break;
+    }
+  }
+  return policy;
+}
+
 }  // namespace
 
 Plan plan(const CountedModel& model, const std::vector<std::uint64_t>& begin,
@@ -51,6 +66,9 @@ Plan plan(const CountedModel& model, const std::vector<std::uint64_t>& begin,
   const Result<Solution> solution = solve(*mdp, settings, planning.method);
   if (!solution) return result;
   result.solved = true;
+  result.lower.assign(solution->lower.begin(), solution->lower.begin() + states);
+  result.upper.assign(solution->upper.begin(), solution->upper.begin() + states);
+  result.policy = policy_of(model, begin, planning, *solution);
   for (State s = 0; s < states; ++s) {
     result.state_value[s] = (solution->lower[s] + solution->upper[s]) / 2;
   }

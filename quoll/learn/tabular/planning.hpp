@@ -30,8 +30,10 @@ struct Planning {
 /// Values of states in the model, and of pairs: mean reward + bonus + discount * mean value.
 struct Plan {
   std::vector<double> state_value;
-  std::vector<double> pair_value;  ///< -infinity for pairs that cannot be taken
-  bool solved = false;             ///< false: values are not defined here (a cycle gains)
+  std::vector<double> pair_value;    ///< -infinity for pairs that cannot be taken
+  std::vector<double> lower, upper;  ///< per state, certified for this model
+  std::vector<Action> policy;        ///< per state; no_action where it leaves or is stuck
+  bool solved = false;               ///< false: values are not defined here (a cycle gains)
 };
 
 /// Solves the model. `begin` = first pair of each state, and the end. Cost: the solver's, and a few
