@@ -221,6 +221,10 @@ Exit learn(const LearnOptions& options) {
   Result<Run> run = open_run(options, *limits);
   if (!run) return fail(run.error());
   run->set_threads(options.threads);
+  if (!options.certificate.empty()) {
+    const Result<void> writable = may_write_experience(*run);
+    if (!writable) return fail(writable.error());
+  }
   const Result<std::unique_ptr<Learner>> twin = first_twin(*run);
   if (!twin) return fail(twin.error());
   std::optional<ComingUpdates> coming;

@@ -120,13 +120,20 @@ void write_learned_certificate(JsonWriter& json, const Run& run, const RunResult
   json.key("assumptions").begin_array().end_array().end_object();
 }
 
-Result<void> write_experience(const std::string& file, const Run& run, const RunResult& result) {
-  const Certifier* const certifier = certifier_of(run);
+Result<void> may_write_experience(const Run& run) {
   const auto refuse = [](const std::string& why) { return Error{"--certificate", 0, 0, why, ""}; };
-  if (certifier == nullptr) return refuse("needs --until certified:EPS; solve writes the model's");
+  if (certifier_of(run) == nullptr) {
+    return refuse("needs --until certified:EPS; solve writes what the model proves");
+  }
   if (!run.world().mdp) return refuse("needs a world whose states have names in a model");
+  return {};
+}
+
+Result<void> write_experience(const std::string& file, const Run& run, const RunResult& result) {
   const ExperienceCertificate& found = *result.seeds.front().certificate;
-  if (found.lower.empty()) return refuse("nothing is certified yet");
+  if (found.lower.empty()) {
+    return Error{"--certificate", 0, 0, "nothing is certified yet: no file written", ""};
+  }
   Solution claim;
   claim.lower = found.lower;
   claim.upper = found.upper;

@@ -17,8 +17,11 @@ std::string experience_text(const Run& run, const RunResult& result);
 /// model, null where neither says anything.
 void write_learned_certificate(JsonWriter& json, const Run& run, const RunResult& result);
 
-/// Writes the first seed's bounds as a file that `verify` takes. Error: none was asked for, or none
-/// was found yet; a world without a model has no names and no place in such a file.
+/// Error: no certificate from experience was asked for, or the world has no names for a file.
+Result<void> may_write_experience(const Run& run);
+
+/// Writes the first seed's bounds as a file that `verify` takes. Error: none was found yet, or the
+/// file cannot be written.
 Result<void> write_experience(const std::string& file, const Run& run, const RunResult& result);
 
 }  // namespace quoll::cli

@@ -31,8 +31,8 @@ ListedSuccessors listed_by(const Mdp& mdp) {
 
 Result<Certifier> Certifier::make(const TabularSetup& setup, const CertifyGoal& goal) {
   const World& world = *setup.world;
-  const Result<void> bounded =
-      finite_value_range(world, setup.rewards, setup.discount, "a certificate from experience");
+  const Result<void> bounded = finite_value_range(world, setup.rewards, setup.discount,
+                                                  "a certificate from experience", "--until");
   if (!bounded) return bounded.error();
   Certifier made;
   made.goal_ = goal;

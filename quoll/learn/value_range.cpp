@@ -66,11 +66,11 @@ std::pair<double, double> value_range(const RewardRange& rewards, double discoun
 }
 
 Result<void> finite_value_range(const World& world, const std::optional<RewardRange>& rewards,
-                                double discount, std::string_view method) {
+                                double discount, std::string_view method, std::string_view place) {
   const std::string name(method);
   if (world.traits.players > 1) {
-    return Error{"--method", 0, 0, name + " is for worlds of one player; two move in " + world.name,
-                 ""};
+    return Error{std::string(place), 0, 0,
+                 name + " is for worlds of one player; two move in " + world.name, ""};
   }
   if (!rewards) {
     return Error{"--reward-range", 0, 0,

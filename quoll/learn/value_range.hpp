@@ -31,6 +31,7 @@ std::pair<double, double> value_range(const RewardRange& rewards, double discoun
 
 /// What methods that hope for the most need: a most, and one player. Error: says how to give it.
 Result<void> finite_value_range(const World& world, const std::optional<RewardRange>& rewards,
-                                double discount, std::string_view method);
+                                double discount, std::string_view method,
+                                std::string_view place = "--method");
 
 }  // namespace quoll
