@@ -23,8 +23,8 @@ Exit fail(const Error& error) {
   return user_error;
 }
 
-void WorldOption::declare(Options& options) {
-  options.word("world", name, "a built-in world (see 'quoll list worlds') or a file");
+void WorldOption::declare(Options& options, bool required) {
+  options.word("world", name, "a built-in world (see 'quoll list worlds') or a file", required);
   options.option("--with", &with, "KEY=VALUE", "a parameter of the world; may be repeated");
   options.option("--goal", &goal, "LABEL",
                  "an episode is over where this label holds; also !A, A & B, A | B and states; "

@@ -31,7 +31,8 @@ struct WorldOption {
   std::vector<std::string> with;
   std::string goal, rewards;
 
-  void declare(Options& options);
+  /// `required`: false for a verb that does something without a world.
+  void declare(Options& options, bool required = true);
   /// Refuses a key given twice. `minimise`: the goal is to be reached with the least probability.
   Result<WorldSource> source(bool minimise = false) const;
   Result<World> open(bool minimise = false) const;

@@ -7,6 +7,8 @@ constexpr Verb entries[] = {
     {"learn", "learn by experience, with the exact answer beside it", declare_learn},
     {"solve", "the exact answer, with proof", declare_solve},
     {"evaluate", "what a policy is worth, state by state", declare_evaluate},
+    {"race", "methods against the lecture's: steps and seconds until within 1 % of optimal",
+     declare_race},
     {"play", "one episode, step by step, by a policy, given actions or by hand", declare_play},
     {"verify", "what a saved run can lose at most, checked independently", declare_verify},
     {"check", "what is wrong or suspicious in a world", declare_check},

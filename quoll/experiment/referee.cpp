@@ -1,0 +1,95 @@
+#include "quoll/experiment/referee.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "quoll/solve/evaluate.hpp"
+#include "quoll/solve/optimality.hpp"
+#include "quoll/solve/solver.hpp"
+
+namespace quoll {
+
+Result<Referee> Referee::make(const World& world, double discount, double share) {
+  if (!world.mdp) {
+    return Error{
+        "", 0, 0,
+        "the model of " + world.name + " is not known: who is within 1 % of optimal cannot be told",
+        ""};
+  }
+  if (world.mdp->alternating()) {
+    return Error{"", 0, 0, "two players move in turn in " + world.name + ": a race is run by one",
+                 ""};
+  }
+  Referee referee(world.mdp, discount, share);
+  const Mdp& mdp = *world.mdp;
+  SolveSettings settings;
+  settings.discount = discount;
+  settings.width = 1e-9;
+  const Result<Solution> solution = solve(mdp, settings);
+  if (!solution) return solution.error();
+  double scale = 0.0;
+  for (State s = 0; s < mdp.states(); ++s) {
+    const double value = solution->lower[s] / 2 + solution->upper[s] / 2;
+    referee.best_.push_back(value);
+    if (std::isfinite(value)) scale = std::max(scale, std::fabs(value));
+  }
+  referee.slack_ = (mdp.deterministic() ? 1e-14 : 1e-9) * scale;
+  const auto enough = [&](double value) {
+    return value - share * std::fabs(value) - referee.slack_;
+  };
+  for (State s = 0; s < mdp.states(); ++s) {
+    const double value = referee.best_[s];
+    const bool judged = !mdp.terminal(s) && std::isfinite(value);
+    referee.least_.push_back(judged ? enough(value) : -HUGE_VAL);
+  }
+  referee.best_start_ = referee.start_value(referee.best_);
+  referee.least_start_ = enough(referee.best_start_);
+  return referee;
+}
+
+double Referee::start_value(std::span<const double> values) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < mdp_->start().size(); ++i) {
+    const State s = mdp_->start()[i];
+    if (!mdp_->terminal(s)) sum += mdp_->start_probability(i) * values[s];
+  }
+  return sum;
+}
+
+// From V* the sweeps of a policy only fall, towards its value: one that is too low stays so
+// (Puterman 1994, theorem 6.2.2).
+bool Referee::certainly_bad(std::span<const Action> policy, RaceMode mode) const {
+  constexpr int sweeps = 50;
+  const Mdp& mdp = *mdp_;
+  std::vector<double> value = best_;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (State s = 0; s < mdp.states(); ++s) {
+      if (mdp.terminal(s) || policy[s] == no_action || !std::isfinite(value[s])) continue;
+      value[s] = std::min(value[s], q_star(mdp, value, mdp.choice_begin(s) + policy[s], discount_));
+      if (mode == RaceMode::all && value[s] < least_[s]) return true;
+    }
+    if (mode == RaceMode::start && start_value(value) < least_start_) return true;
+  }
+  return false;
+}
+
+bool Referee::good(std::span<const Action> policy, RaceMode mode) const {
+  const Mdp& mdp = *mdp_;
+  if (mode == RaceMode::all) {
+    for (State s = 0; s < mdp.states(); ++s) {
+      if (policy[s] == no_action && least_[s] > -HUGE_VAL) return false;
+    }
+  }
+  // Along the graph of a deterministic model an evaluation costs no more than a sweep.
+  if (!mdp.deterministic() && certainly_bad(policy, mode)) return false;
+  const Result<Evaluation> value = evaluate(mdp, policy, discount_, std::max(slack_ / 4, 1e-300));
+  if (!value) return false;
+  if (mode == RaceMode::start) return start_value(value->lower) >= least_start_;
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (value->lower[s] < least_[s]) return false;
+  }
+  return true;
+}
+
+}  // namespace quoll

@@ -1,0 +1,44 @@
+#pragma once
+// The referee of a race: it alone knows the model and its exact answer, and says of a policy
+// whether it is within a share of optimal. Those who learn see experience only.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "quoll/env/world.hpp"
+#include "quoll/experiment/heat.hpp"
+
+namespace quoll {
+
+class Referee {
+ public:
+  /// Solves the world exactly. Error: a world without a model, a game of two who move in turn,
+  /// discount 1 where values are not defined. `share`: what a policy may lose of |V*|.
+  static Result<Referee> make(const World& world, double discount, double share = 0.01);
+
+  /// Whether V*(s) - V^policy(s) <= share |V*(s)| in every non-terminal state (mode all), or for
+  /// the value of the start distribution (mode start). What a state without an action is worth is
+  /// not known: it counts as the least the rewards allow. Rounding is forgiven: 1e-14 of the
+  /// largest |V*| in deterministic worlds, 1e-9 in others. Cost: bad policies mostly a few sweeps,
+  /// good ones an evaluation. Safe to call from several threads.
+  bool good(std::span<const Action> policy, RaceMode mode) const;
+
+  double discount() const { return discount_; }
+  const std::vector<double>& values() const { return best_; }  ///< V* per state
+
+ private:
+  Referee(std::shared_ptr<const Mdp> mdp, double discount, double share)
+      : mdp_(std::move(mdp)), discount_(discount), share_(share) {}
+  double start_value(std::span<const double> values) const;
+  bool certainly_bad(std::span<const Action> policy, RaceMode mode) const;
+
+  std::shared_ptr<const Mdp> mdp_;
+  double discount_, share_;
+  std::vector<double> best_;   // V*
+  std::vector<double> least_;  // per state: what is still good enough; -infinity = anything
+  double best_start_ = 0.0, least_start_ = 0.0;
+  double slack_ = 0.0;
+};
+
+}  // namespace quoll
