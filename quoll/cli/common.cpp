@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -181,6 +182,18 @@ Result<void> write_output(const std::string& path, std::string_view content,
     }
   }
   return write_file(path, content);
+}
+
+Result<void> make_folder(const std::string& path) {
+  if (mkdir(path.c_str(), 0777) != 0 && errno != EEXIST) {
+    return Error{path, 0, 0, std::string("the folder cannot be made: ") + std::strerror(errno), ""};
+  }
+  struct stat status{};
+  if (stat(path.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) {
+    return Error{path, 0, 0, "is not a folder", ""};
+  }
+  if (access(path.c_str(), W_OK) == 0) return {};
+  return Error{path, 0, 0, std::string("cannot be written to: ") + std::strerror(errno), ""};
 }
 
 bool print(const std::string& text) {

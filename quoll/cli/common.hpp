@@ -74,6 +74,10 @@ struct GivenSettings {
 Result<void> write_output(const std::string& path, std::string_view content,
                           std::initializer_list<std::string> inputs);
 
+/// Makes a folder to write to, if it is not there. Error: something else stands there, or it cannot
+/// be written to.
+Result<void> make_folder(const std::string& path);
+
 /// The text on stdout, at once; false (with a message) when it cannot be written.
 bool print(const std::string& text);
 

@@ -73,23 +73,14 @@ Result<void> RunFiles::prepare(Run& run) {
 }
 
 Result<void> RunFiles::prepare_folder(Run& run) {
-  if (mkdir(folder_.c_str(), 0777) != 0 && errno != EEXIST) {
-    return Error{folder_, 0, 0, std::string("the folder cannot be made: ") + std::strerror(errno),
-                 ""};
-  }
-  struct stat status{};
-  if (stat(folder_.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) {
-    return Error{folder_, 0, 0, "is not a folder", ""};
-  }
+  const Result<void> made = make_folder(folder_);
+  if (!made) return made;
   for (const char* name : {"settings.toml", "records.csv"}) {
     if (exists(in_folder("run.quoll")) || !exists(in_folder(name))) continue;
     return Error{in_folder(name), 0, 0,
                  "stands in a folder without a run.quoll; it is kept, choose another folder or "
                  "remove it",
                  ""};
-  }
-  if (access(folder_.c_str(), W_OK) != 0) {
-    return Error{folder_, 0, 0, std::string("cannot be written to: ") + std::strerror(errno), ""};
   }
   const std::string records = resumed_.empty() ? "" : records_of_resumed(run);
   if (!records.empty()) {

@@ -3,10 +3,10 @@
 #include "quoll/experiment/race.hpp"
 
 #include <chrono>
-#include <limits>
 #include <memory>
 
 #include "quoll/cli/common.hpp"
+#include "quoll/cli/race_options.hpp"
 #include "quoll/cli/race_output.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/report/race_svg.hpp"
@@ -14,42 +14,6 @@
 
 namespace quoll::cli {
 namespace {
-
-/// What can be asked of a race.
-struct RaceSettings {
-  std::string methods;
-  RaceMode mode = RaceMode::start;
-  std::uint64_t seeds = 30;
-  std::uint64_t seed = 1;
-  double discount = 0.0;
-  std::string from;
-  std::uint64_t cap_steps = 50'000'000;
-  double cap_seconds = 10.0;
-
-  void describe(Describer& d) {
-    d("methods", methods,
-      "who runs against the lecture's method: METHOD or METHOD:key=value:key=value, separated by "
-      "commas; without it every method");
-    d.choice("mode", mode, race_mode_names,
-             "from which states a policy must be good: from all, any of which may be chosen as a "
-             "start, or from the start alone");
-    d("seeds", seeds, 1, 1e6, "how many seeds each entrant runs, from --seed on");
-    d("seed", seed, "which random numbers");
-    d("discount", discount, std::numeric_limits<double>::denorm_min(), 1,
-      "discount factor of the future; without it the world's own");
-    d("from", from, "the state every episode begins in, instead of the world's start");
-    d("cap_steps", cap_steps, 1, 1e15, "steps after which a seed has failed");
-    d("cap_seconds", cap_seconds, 0, 1e9,
-      "processor seconds after which a seed has failed; 0 = no such limit");
-  }
-};
-
-struct RaceOptions {
-  WorldOption world;
-  OutputOption output;
-  GivenSettings given;
-  unsigned threads = 0;
-};
 
 Result<RaceSettings> settings_of_race(const RaceOptions& options) {
   RaceSettings settings;
@@ -99,6 +63,12 @@ RaceResult run(const RacePlan& plan, const std::vector<Entrant>& entrants, bool 
 Exit race(const RaceOptions& options) {
   const Result<RaceSettings> settings = settings_of_race(options);
   if (!settings) return fail(settings.error());
+  if (options.suite) return race_suite(options, *settings);
+  if (options.world.name.empty()) {
+    return fail({"race", 0, 0,
+                 "WORLD expected: a built-in world (see 'quoll list worlds') or a file; or --suite",
+                 ""});
+  }
   const Result<World> world = open_world(options, *settings);
   if (!world) return fail(world.error());
   if (settings->mode == RaceMode::all && !world->traits.settable) {
@@ -112,11 +82,9 @@ Exit race(const RaceOptions& options) {
   const Result<std::vector<Entrant>> entrants = entrants_of(*settings, *world);
   if (!entrants) return fail(entrants.error());
   catch_interrupts();
-  const RacePlan plan{
-      &*world,        &*referee,
-      settings->mode, settings->seeds,
-      settings->seed, {settings->cap_steps, settings->cap_seconds},
-      options.threads};
+  const RacePlan plan{&*world,         &*referee,      settings->mode,
+                      settings->seeds, settings->seed, {settings->cap_steps, settings->cap_seconds},
+                      options.threads};
   const RaceResult result = run(plan, *entrants, options.output.quiet);
   if (!print(options.output.json ? race_json(result) : race_text(result))) return user_error;
   if (!options.output.file.empty()) {
@@ -132,11 +100,14 @@ Exit race(const RaceOptions& options) {
 void declare_race(Options& options) {
   auto given = std::make_shared<RaceOptions>();
   RaceSettings defaults;
-  given->world.declare(options);
+  given->world.declare(options, false);
+  options.flag("--suite", &given->suite,
+               "run a list of worlds in both modes: standard, or WORLD = fresh for worlds never "
+               "used to choose a setting; what was run before is not run again");
   given->given.declare(options, settings_of(defaults));
   options.option("--threads", &given->threads, "N",
                  "processors to use; 0 = all; changes no step count");
-  given->output.declare(options, "a picture: FILE.svg");
+  given->output.declare(options, "a picture, FILE.svg; with --suite a folder for race.md [race]");
   options.run([given] { return race(*given); });
 }
 

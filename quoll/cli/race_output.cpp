@@ -35,10 +35,7 @@ void write_entrant(JsonWriter& json, const EntrantResult& entrant) {
   json.end_array().end_object();
 }
 
-}  // namespace
-
-std::string race_json(const RaceResult& race) {
-  JsonWriter json(JsonStyle::pretty);
+void write_race(JsonWriter& json, const RaceResult& race) {
   json.begin_object().member("world", race.world);
   json.member("mode", race_mode_names[static_cast<std::size_t>(race.mode)]);
   json.member("discount", race.discount);
@@ -52,6 +49,25 @@ std::string race_json(const RaceResult& race) {
     json.null_member("cap_seconds");
   json.member("interrupted", race.interrupted).key("entrants").begin_array();
   for (const EntrantResult& entrant : race.entrants) write_entrant(json, entrant);
+  json.end_array().end_object();
+}
+
+}  // namespace
+
+std::string race_json(const RaceResult& race) {
+  JsonWriter json(JsonStyle::pretty);
+  write_race(json, race);
+  return json.text() + "\n";
+}
+
+std::string suite_json(std::string_view suite, std::span<const PageRace> races) {
+  JsonWriter json(JsonStyle::pretty);
+  json.begin_object().member("suite", suite).key("races").begin_array();
+  for (const PageRace& race : races) {
+    json.begin_object().member("name", race.name).key("race");
+    write_race(json, race.result);
+    json.end_object();
+  }
   json.end_array().end_object();
   return json.text() + "\n";
 }

@@ -98,6 +98,20 @@ std::string factor_cell(const EntrantResult& yardstick, const EntrantResult& ent
   return (yardstick.failed() ? "> " : entrant.failed() ? "< " : "") + times_text(times);
 }
 
+std::vector<std::string> race_cells(const EntrantResult& yardstick, const EntrantResult& entrant) {
+  const bool ran = !entrant.heats.empty();
+  return {entrant.word,
+          steps_cell(entrant),
+          between(entrant.steps, scaled_text),
+          factor_cell(yardstick, entrant, entrant.fewer_steps),
+          seconds_cell(entrant),
+          between(entrant.seconds, seconds_text),
+          factor_cell(yardstick, entrant, entrant.fewer_seconds),
+          ran ? seconds_text(entrant.step_seconds) : "-",
+          failures_cell(entrant),
+          ran ? bytes_text(static_cast<double>(entrant.bytes)) : "-"};
+}
+
 std::string race_question(const RaceResult& race) {
   std::string text = fmt::format(
       "steps and seconds until within 1 % of optimal {}; discount {}, {} from {}, at most {} steps",
@@ -120,16 +134,8 @@ std::string race_text(const RaceResult& race) {
                    {"a step", Align::right},
                    {"failed", Align::right},
                    {"memory", Align::right}});
-  const EntrantResult& yardstick = race.entrants.front();
   for (const EntrantResult& entrant : race.entrants) {
-    if (!entrant.refused.empty()) continue;
-    const bool ran = !entrant.heats.empty();
-    table.row({entrant.word, steps_cell(entrant), between(entrant.steps, scaled_text),
-               factor_cell(yardstick, entrant, entrant.fewer_steps), seconds_cell(entrant),
-               between(entrant.seconds, seconds_text),
-               factor_cell(yardstick, entrant, entrant.fewer_seconds),
-               ran ? seconds_text(entrant.step_seconds) : "-", failures_cell(entrant),
-               ran ? bytes_text(static_cast<double>(entrant.bytes)) : "-"});
+    if (entrant.refused.empty()) table.row(race_cells(race.entrants.front(), entrant));
   }
   return fmt::format("race {}   {}\n\n{}\n{}", race.world, race_question(race), table.text(),
                      notes(race));

@@ -2,6 +2,7 @@
 // A race in the terminal, and its numbers as words for every other picture of it.
 
 #include <string>
+#include <vector>
 
 #include "quoll/experiment/heat.hpp"
 
@@ -19,7 +20,10 @@ std::string seconds_text(double seconds);
 /// "512 B", "12.3 kB".
 std::string bytes_text(double bytes);
 
-/// The cells of an entrant's line; "-" where nothing ran, and "> " before a median that is a cap.
+/// The cells of an entrant's line, as the columns of race_text().
+std::vector<std::string> race_cells(const EntrantResult& yardstick, const EntrantResult& entrant);
+
+/// Single ones; "-" where nothing ran, and "> " before a median that is a cap.
 std::string steps_cell(const EntrantResult& entrant);
 std::string seconds_cell(const EntrantResult& entrant);
 std::string failures_cell(const EntrantResult& entrant);
