@@ -10,6 +10,7 @@
 
 #include "quoll/base/file.hpp"
 #include "quoll/base/text.hpp"
+#include "quoll/cli/common.hpp"
 #include "quoll/cli/same_world.hpp"
 #include "quoll/experiment/config.hpp"
 

@@ -132,11 +132,21 @@ class SuiteRun {
     return drawn;
   }
 
+  // " --cap-steps 1000000", as it could be typed.
+  std::string flag_of(const char* key) const {
+    RaceSettings copy = settings_;
+    std::string flag = " --" + std::string(key);
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    return flag + " " + text_of(*find(settings_of(copy), key));
+  }
+
   Result<void> write_page() const {
     std::string command = "quoll race --suite";
     if (suite_.name != "standard") command += " " + std::string(suite_.name);
     command += fmt::format(" --seeds {}", settings_.seeds);
-    if (!settings_.methods.empty()) command += " --methods " + settings_.methods;
+    for (const char* key : {"mode", "methods", "seed", "cap_steps", "cap_seconds"}) {
+      if (asked_for(options_.given, key)) command += flag_of(key);
+    }
     return write_output(page_file(), race_page({std::string(suite_.title), command, races_}), {});
   }
 

@@ -16,7 +16,11 @@ struct RaceSettings {
   std::string_view start;  ///< where it can only begin anew
 };
 constexpr RaceSettings race_settings[] = {
-    {"q-learning", "start=least-visited", "explore=epsilon-greedy"},
+    {"q-learning", "start=each-pair", "explore=epsilon-greedy"},
+    {"reverse-replay", "start=uniform", "explore=epsilon-greedy"},
+    {"dyna-q", "start=each-pair", "explore=epsilon-greedy"},
+    {"prioritised-sweeping", "start=each-pair", "explore=epsilon-greedy"},
+    {"empirical-model", "start=each-pair", "explore=epsilon-greedy"},
 };
 /// Of methods that are not listed.
 constexpr RaceSettings others{"", "start=uniform", ""};
@@ -152,7 +156,8 @@ std::vector<Entrant> lecture_entrants(const World& world, RaceMode mode, double 
   entrant.settings.episode_steps = 2000;
   if (mode == RaceMode::start) return {entrant};
   Entrant brief = entrant;
-  const double horizon = discount < 1.0 ? std::ceil(1.0 / (1.0 - discount)) : 32.0;
+  // 1 / (1 - 0.8) is 5, not 5.000000000000001.
+  const double horizon = discount < 1.0 ? std::ceil(1.0 / (1.0 - discount) - 1e-9) : 32.0;
   brief.settings.episode_steps = static_cast<std::uint64_t>(std::min(horizon, 32.0));
   brief.note = "episodes of " + std::to_string(brief.settings.episode_steps) + " steps";
   return {entrant, brief};

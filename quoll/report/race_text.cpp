@@ -114,10 +114,10 @@ std::vector<std::string> race_cells(const EntrantResult& yardstick, const Entran
 
 std::string race_question(const RaceResult& race) {
   std::string text = fmt::format(
-      "steps and seconds until within 1 % of optimal {}; discount {}, {} from {}, at most {} steps",
+      "steps and seconds until within 1 % of optimal {}; discount {}, {} from {}, at most {}",
       race.mode == RaceMode::all ? "in every state (any state may be chosen)" : "at the start",
       shortest(race.discount), counted(race.seeds, "seed"), race.first_seed,
-      grouped(race.cap_steps));
+      counted(race.cap_steps, "step"));
   if (race.cap_seconds > 0.0) text += fmt::format(" and {}", seconds_text(race.cap_seconds));
   return text;
 }

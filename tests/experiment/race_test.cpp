@@ -100,8 +100,11 @@ TEST(Race, TheRefereeNeedsAModelAndOnePlayer) {
   EXPECT_EQ(message(none.error()),
             "the model of adventure without a model is not known: who is within 1 % of optimal "
             "cannot be told");
-  const World game = *find_world("krk", {{"defender", "learning"}});
-  EXPECT_FALSE(Referee::make(game, 0.99));
+  MdpBuilder game(1.0);
+  game.alternating(true);
+  game.move("2", "take", "1").move("1", "take", "0", 1.0);
+  EXPECT_EQ(message(Referee::make(to_world("nim", *game.build()), 1.0).error()),
+            "two players move in turn in nim: a race is run by one");
 }
 
 TEST(Race, AHeatEndsAtTheFirstOfTwoGoodLooks) {

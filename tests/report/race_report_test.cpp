@@ -47,23 +47,24 @@ RaceResult race() {
 }
 
 TEST(RaceText, TellsWinsLossesAndFailures) {
-  EXPECT_EQ(race_text(race()),
-            "race lake   steps and seconds until within 1 % of optimal in every state (any state "
-            "may be chosen); discount 0.99, 3 seeds from 1, at most 1,000,000 steps\n"
-            "\n"
-            "entrant    steps  quartiles          fewer      time  quartiles           less  a step"
-            "  failed  memory\n"
-            "lecture    100 k  95 k .. 110 k         1x      1 ms  950 us .. 1.1 ms      1x   10 ns"
-            "     0/3  1.2 kB\n"
-            "quick         20  15 .. 30          5,000x     20 us  15 us .. 30 us       50x    1 us"
-            "     0/3  1.2 kB\n"
-            "slow       > 1 M  750 k .. 1 M      < 0.1x  > 100 ms  75 ms .. 100 ms  < 0.01x  100 ns"
-            "     2/3  1.2 kB\n"
-            "\n"
-            "lecture: episodes of 32 steps\n"
-            "a failed seed counts as 1,000,000 steps, and as the seconds these take at its own "
-            "speed\n"
-            "planner does not run: needs what is not there\n");
+  EXPECT_EQ(
+      race_text(race()),
+      "race lake   steps and seconds until within 1 % of optimal in every state (any state "
+      "may be chosen); discount 0.99, 3 seeds from 1, at most 1,000,000 steps\n"
+      "\n"
+      "entrant  steps  quartiles       fewer      time  quartiles            less  a step  "
+      "failed  memory\n"
+      "lecture  100 k  95 k .. 110 k      1x      1 ms  950 us .. 1.1 ms       1x   10 ns     "
+      "0/3  1.2 kB\n"
+      "quick       20  15 .. 30       5,000x     20 us  15 us .. 30 us        50x    1 us     "
+      "0/3  1.2 kB\n"
+      "slow     > 1 M  750 k .. 1 M   < 0.1x  > 100 ms  75 ms .. 100 ms   < 0.01x  100 ns     "
+      "2/3  1.2 kB\n"
+      "\n"
+      "lecture: episodes of 32 steps\n"
+      "a failed seed counts as 1,000,000 steps, and as the seconds these take at its own "
+      "speed\n"
+      "planner does not run: needs what is not there\n");
 }
 
 TEST(RaceText, NumbersForPeople) {
