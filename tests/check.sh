@@ -15,12 +15,8 @@ cpp_files() {
     while read -r file; do [ ! -f "$file" ] || printf '%s\n' "$file"; done
 }
 
-# tree NAME OPTIONS: configures build/NAME by its preset.
-configure() {
-  name=$1
-  shift
-  [ -e "build/$name/build.ninja" ] || cmake --preset "$name" "$@"
-}
+# configure NAME: the tree build/NAME, by its preset.
+configure() { [ -e "build/$1/build.ninja" ] || cmake --preset "$1"; }
 
 # As clang-format-19 lays it out.
 form() { cpp_files '*.cpp' '*.hpp' '*.c' '*.h' | xargs -r clang-format-19 --dry-run -Werror; }
@@ -28,23 +24,27 @@ form() { cpp_files '*.cpp' '*.hpp' '*.c' '*.h' | xargs -r clang-format-19 --dry-
 # Floors, file sizes, what the core does without; each public header on its own.
 floors() { "$tree/tests/floors_test" --gtest_brief=1 && ninja -C "$tree" headers_alone; }
 
-# Names and mistakes (.clang-tidy). A file is looked at again only when something it may see changed.
+# Names and mistakes (.clang-tidy), six files at a time. They are looked at again only when something they
+# may see changed.
 tidy() {
   mkdir -p build/tidy
   state=$( (cpp_files '*.hpp' | xargs cat; cat .clang-tidy) | cksum | cut -d ' ' -f 1)
-  cpp_files 'quoll/*.cpp' | xargs -r -P "$jobs" -n 1 sh -c '
-    stamp=build/tidy/$(printf %s "$3" | tr / _)
-    now="$1 $(cksum <"$3")"
-    [ "$(cat "$stamp" 2>/dev/null)" = "$now" ] && exit 0
-    clang-tidy-19 --quiet -p "$2" "$3" 2>/dev/null && printf %s "$now" >"$stamp"
-  ' tidy "$state" "$tree"
+  cpp_files 'quoll/*.cpp' | xargs -r -P "$jobs" -n 6 sh tests/tidy.sh "$tree" "$state"
+}
+
+# build/inside: the library by clang, without precompiled headers, inside the tree of a project that uses it.
+inside() {
+  [ -e build/inside/build.ninja ] ||
+    cmake -S tests/packaging -B build/inside -G Ninja -DQUOLL_INSIDE="$root" -DQUOLL_TESTS=ON \
+      -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DCMAKE_CXX_COMPILER=clang++-19 -DCMAKE_BUILD_TYPE=None \
+      -DCMAKE_CXX_FLAGS='-O2 -g1' || return 1
+  ninja -C build/inside consumer quoll_signature
 }
 
 # The same hash from g++ and from clang.
 signature() {
-  [ -x "$tree/tests/quoll_signature" ] || { echo "no signature program yet"; return 0; }
-  configure clang && ninja -C build/clang quoll_signature || return 1
-  gcc=$("$tree/tests/quoll_signature") && clang=$(build/clang/tests/quoll_signature) || return 1
+  inside || return 1
+  gcc=$("$tree/tests/quoll_signature") && clang=$(build/inside/quoll/tests/quoll_signature) || return 1
   echo "g++ $gcc, clang $clang"
   [ "$gcc" = "$clang" ]
 }
@@ -52,20 +52,19 @@ signature() {
 # Unit tests, cases and fuzz corpora under AddressSanitizer and UndefinedBehaviorSanitizer.
 sanitize() {
   configure sanitize && ninja -C build/sanitize &&
-    ctest --test-dir build/sanitize -j "$jobs" --output-on-failure --timeout 300 -LE docs
+    ctest --test-dir build/sanitize -j "$jobs" --output-on-failure --timeout 300 -LE 'docs|golden'
 }
 
 # Whatever starts threads, under ThreadSanitizer.
 threads() {
-  configure tsan && ninja -C build/tsan base_test && build/tsan/tests/base_test --gtest_brief=1 \
-    --gtest_filter='*arallel*:*hread*' || return 1
-  ninja -C build/tsan -t targets all | grep -q '^suites_test:' || return 0
-  ninja -C build/tsan suites_test &&
-    build/tsan/tests/suites_test --gtest_brief=1 --gtest_filter='*arallel*:*hread*'
+  configure tsan && ninja -C build/tsan base_test suites_test || return 1
+  for test in base_test suites_test; do
+    build/tsan/tests/$test --gtest_brief=1 --gtest_filter='*arallel*:*hread*' || return 1
+  done
 }
 
 # An installed Quoll is found by find_package, and a tree of it by add_subdirectory.
-packaging() { sh tests/packaging/run.sh "$tree"; }
+packaging() { sh tests/packaging/run.sh "$tree" && inside && build/inside/consumer; }
 
 # One adventure run in WebAssembly, with the bits of the native one.
 wasi() { sh tests/wasi/run.sh "$tree"; }

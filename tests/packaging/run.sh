@@ -1,6 +1,5 @@
 #!/bin/sh
-# run.sh TREE: a program of somebody else's finds Quoll installed (find_package), and in a folder of its
-# own tree (add_subdirectory); both run.
+# run.sh TREE: a program of somebody else's finds Quoll installed (find_package), and runs.
 set -eu
 
 here=$(dirname "$(readlink -f "$0")")
@@ -21,7 +20,3 @@ ninja -C "$out/found"
   printf '#include <%s>\n' "$header"
 done >"$out/all_headers.cpp"
 g++ -std=c++20 -fsyntax-only -I "$out/installed/include" "$out/all_headers.cpp"
-
-cmake -S "$here" -B "$out/inside" -G Ninja -DQUOLL_INSIDE="$root" -DCMAKE_CXX_FLAGS=-O0 >/dev/null
-ninja -C "$out/inside"
-"$out/inside/consumer"
