@@ -4,8 +4,17 @@ set -eu
 
 compiler=$1
 here=$(dirname "$(readlink -f "$0")")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+# The library's header is read once for all the structs; the compiler finds it by the ending.
+header=$folder/header.hpp
+echo '#include "quoll/env/dynamics.hpp"' >"$header"
+case $("$compiler" --version) in *clang*) ending=pch ;; *) ending=gch ;; esac
+"$compiler" -std=c++20 -I "$here/../.." -x c++-header "$header" -o "$header.$ending"
 compile() {
-  "$compiler" -std=c++20 -fsyntax-only -I "$here/../.." -DMISSING="$1" "$here/missing_member.cpp" 2>&1
+  "$compiler" -std=c++20 -fsyntax-only -include "$header" -I "$here/../.." -DMISSING="$1" \
+    "$here/missing_member.cpp" 2>&1
 }
 
 compile 0 || { echo "the whole struct does not compile"; exit 1; }

@@ -29,19 +29,23 @@ done
 cd "$root"
 {
   echo "builddir = $out"
-  echo "flags = --target=wasm32-wasi -std=c++20 -O2 -fno-exceptions -ffp-contract=off -DFMT_HEADER_ONLY"
+  echo "flags = --target=wasm32-wasi -std=c++20 -O1 -fno-exceptions -ffp-contract=off -DFMT_HEADER_ONLY"
+  echo "include = -I$root -isystem $out/include -I$tree/embedded"
+  echo "rule precompile"
+  echo "  command = $clang \$flags \$include -x c++-header -c \$in -o \$out"
   echo "rule compile"
-  echo "  command = $clang \$flags -I$root -isystem $out/include -I$tree/embedded -MD -MF \$out.d -c" \
-    "\$in -o \$out"
+  echo "  command = $clang \$flags \$include -include-pch $out/precompiled.pch -MD -MF \$out.d -c \$in" \
+    "-o \$out"
   echo "  deps = gcc"
   echo "  depfile = \$out.d"
   echo "rule link"
   echo "  command = $clang --target=wasm32-wasi \$in -o \$out"
+  echo "build $out/precompiled.pch: precompile $root/cmake/precompiled.hpp"
   objects=''
   for source in $(find quoll/base quoll/model quoll/env quoll/act quoll/solve quoll/verify \
     quoll/learn tests/wasi -name '*.cpp' | sort); do
     object=$out/objects/$(printf %s "$source" | tr / _).o
-    echo "build $object: compile $root/$source"
+    echo "build $object: compile $root/$source | $out/precompiled.pch"
     objects="$objects $object"
   done
   echo "build $out/adventure.wasm: link$objects"
