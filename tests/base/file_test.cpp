@@ -154,7 +154,7 @@ TEST_F(FileTest, AFileLargerThanTheMemoryIsAnError) {
   if (unsupported) GTEST_SKIP() << "no file of 4 TiB here";
   rlimit before{};
   getrlimit(RLIMIT_AS, &before);
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(QUOLL_SANITIZED)
   GTEST_SKIP() << "sanitizers need the address space";
 #endif
   rlimit small = before;

@@ -25,11 +25,8 @@ namespace {
 
 using test::Fraction;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(QUOLL_SANITIZED)
 constexpr std::uint64_t models = 500;
-#elif defined(__has_feature)
-constexpr std::uint64_t models =
-    __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) ? 500 : 10'000;
 #else
 constexpr std::uint64_t models = 10'000;
 #endif
