@@ -30,11 +30,11 @@ cd "$root"
 {
   echo "builddir = $out"
   echo "flags = --target=wasm32-wasi -std=c++20 -O1 -fno-exceptions -ffp-contract=off -DFMT_HEADER_ONLY"
-  echo "include = -I$root -isystem $out/include -I$tree/embedded"
+  echo "paths = -I$root -isystem $out/include -I$tree/embedded"
   echo "rule precompile"
-  echo "  command = $clang \$flags \$include -x c++-header -c \$in -o \$out"
+  echo "  command = $clang \$flags \$paths -x c++-header -c \$in -o \$out"
   echo "rule compile"
-  echo "  command = $clang \$flags \$include -include-pch $out/precompiled.pch -MD -MF \$out.d -c \$in" \
+  echo "  command = $clang \$flags \$paths -include-pch $out/precompiled.pch -MD -MF \$out.d -c \$in" \
     "-o \$out"
   echo "  deps = gcc"
   echo "  depfile = \$out.d"
