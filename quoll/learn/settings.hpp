@@ -36,8 +36,8 @@ struct MethodSettings {
   double kappa = 1e-3;            ///< Dyna-Q+: bonus times sqrt(steps since the last visit)
   double ucb_bonus = 0.03;        ///< UCB-Q: bonus times range * sqrt(H / n)
   std::uint64_t known_after = 1;  ///< m: visits after which a pair is known
-  double bonus_variance = 2.0;    ///< B
-  double bonus_range = 1.0;       ///< C
+  double bonus_variance = 0.5;    ///< B
+  double bonus_range = 0.3;       ///< C
 
   void describe(Describer& d);
 };

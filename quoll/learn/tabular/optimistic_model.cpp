@@ -5,7 +5,7 @@
 //   lower  L(s,a) = Qmin where nothing was tried, else the optimum of the counted model
 //   1   act greedily on U, ties at random
 //   2   see (s, a, r, s'); count it
-//   3   plan U anew when N(s,a) reached m or a power of two
+//   3   plan U anew when N(s,a) reached m, and when it is half as much again as then
 //   4   the answer: the greedy policy of L
 //
 // Without noise m = 1 and b = 0, and planning is a search from the present state for the nearest
@@ -33,12 +33,14 @@ class OptimisticModel {
 
   OptimisticModel(const TabularSetup& setup, const ValueTable<double>& table)
       : certain_(setup.world->traits.deterministic),
+        first_tie_(setup.exploration.first_tie),
         begin_(table.begin()),
         starts_(setup.starts.states().begin(), setup.starts.states().end()),
         pessimism_(known_pairs_only(setup)),
         optimism_(optimism_of(setup)),
         model_(table.pairs()),
         search_(table.states()),
+        replan_at_(table.pairs(), optimism_.known_after),
         value_(table.states(), optimism_.most),
         pair_value_(table.pairs(), optimism_.most) {}
 
@@ -47,9 +49,9 @@ class OptimisticModel {
     if (!certain_) {
       if (stale_) improve_optimistic_values(model_, begin_, optimism_, value_, pair_value_);
       stale_ = false;
-      return {greedy(s, draws.tie()), true};
+      return {greedy(s, first_tie_ ? 0 : draws.tie()), true};
     }
-    const Action untried = any_untried(table, s, draws.tie());
+    const Action untried = any_untried(table, s, first_tie_ ? 0 : draws.tie());
     if (untried != no_action) return {untried, true};
     if (taken_ == way_.size() || way_[taken_] < begin_[s] || way_[taken_] >= begin_[s + 1]) {
       way_ = search_.find(model_, begin_, s, optimism_.most, optimism_.discount);
@@ -59,7 +61,7 @@ class OptimisticModel {
       // All that can be reached is known, and no end is among it.
       if (stale_) pair_value_ = plan(model_, begin_, hope()).pair_value;
       stale_ = false;
-      return {greedy(s, draws.tie()), false};
+      return {greedy(s, first_tie_ ? 0 : draws.tie()), false};
     }
     return {static_cast<Action>(way_[taken_++] - begin_[s]), search_.explores()};
   }
@@ -70,7 +72,10 @@ class OptimisticModel {
     count(model_, step);
     // 3
     const std::uint32_t n = model_.tried(step.pair);
-    stale_ = stale_ || n == optimism_.known_after || (n & (n - 1)) == 0;
+    if (n >= replan_at_[step.pair]) {
+      replan_at_[step.pair] = n + std::max(n / 2, 1u);
+      stale_ = true;
+    }
     // What is told: how far the one step is from what the table holds, which is not in use.
     const double best_next = step.carry == 0.0 ? 0.0 : table.best(step.next);
     const double target =
@@ -106,6 +111,7 @@ class OptimisticModel {
     model_.persist(archive, begin_.size() - 1);
     const std::size_t states = value_.size(), pairs = pair_value_.size();
     archive("stale", stale_);
+    archive("replan_at", replan_at_);
     archive("value", value_);
     archive("pair_value", pair_value_);
     archive("way", way_);
@@ -114,11 +120,12 @@ class OptimisticModel {
     archive("next_gaps", next_gaps_);
     archive("widest", widest_);
     bool fits = widest_ < states && value_.size() == states && pair_value_.size() == pairs &&
-                taken_ <= way_.size();
+                replan_at_.size() == pairs && taken_ <= way_.size();
     if (fits) return;
     archive.fail("values of another world");
     value_.resize(states);
     pair_value_.resize(pairs);
+    replan_at_.resize(pairs);
     way_.clear();
     taken_ = 0;
     widest_ = starts_.front();
@@ -180,13 +187,14 @@ class OptimisticModel {
     return no_action;
   }
 
-  bool certain_;
+  bool certain_, first_tie_;
   std::vector<std::uint64_t> begin_;
   std::vector<State> starts_;
   Planning pessimism_;
   Optimism optimism_;
   CountedModel model_;
   WayToUnknown search_;
+  std::vector<std::uint32_t> replan_at_;    // visits of each pair
   std::vector<double> value_, pair_value_;  // U
   std::vector<std::uint64_t> way_;          // pairs still to take, without noise
   std::uint64_t taken_ = 0;
