@@ -43,15 +43,20 @@ function(quoll_floor folder)
   endif()
   target_include_directories(quoll_${folder} PRIVATE ${quoll_embedded})
   if(arg_NO_EXCEPTIONS)
-    set(with_exceptions ${arg_EXCEPT})
-    list(TRANSFORM with_exceptions PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/quoll/${folder}/)
-    foreach(source IN LISTS sources)
-      if(NOT source IN_LIST with_exceptions)
-        set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fno-exceptions)
-      endif()
-    endforeach()
+    target_compile_options(quoll_${folder} PRIVATE -fno-exceptions)
+    list(TRANSFORM arg_EXCEPT PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/quoll/${folder}/)
+    set_source_files_properties(${arg_EXCEPT} PROPERTIES COMPILE_OPTIONS -fexceptions)
   endif()
   set(quoll_floors ${quoll_floors} ${folder} CACHE INTERNAL "")
+endfunction()
+
+# quoll_precompile(FLOOR...): cmake/precompiled.hpp is read once, by the first, for all of them: floors with
+# the same options.
+function(quoll_precompile first)
+  target_precompile_headers(quoll_${first} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.hpp)
+  foreach(floor IN LISTS ARGN)
+    target_precompile_headers(quoll_${floor} REUSE_FROM quoll_${first})
+  endforeach()
 endfunction()
 
 # GMP for a floor, if it was found: its sources see QUOLL_GMP, and what is made of the floor links

@@ -1,5 +1,6 @@
-// What nearly every source includes, read once per tree (quoll_precompile). Nothing may lean on it:
-// the library is also compiled without (./dev check).
+// What nearly every source includes, read once per tree (quoll_precompile in
+// cmake/QuollFloors.cmake). Nothing may lean on it: the library is also compiled without (./dev
+// check).
 #include <fmt/format.h>
 
 #include <algorithm>
