@@ -27,6 +27,8 @@ while read -r life; do
     --save "$run" --save-every 20ms >/dev/null 2>"$folder/errors" &
   process=$!
   sleep "$life"
+  # The first one lives until it has saved, however slow the machine is.
+  until [ "$loaded" -gt 0 ] || [ -e "$run" ] || ! kill -0 "$process" 2>/dev/null; do sleep 0.02; done
   kill -9 "$process" 2>/dev/null || { cat "$folder/errors"; echo "ended by itself"; exit 1; }
   wait "$process" 2>/dev/null || true
   left=$(find "$folder" -name '.quoll-*' | wc -l)
