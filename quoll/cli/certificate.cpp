@@ -29,13 +29,17 @@ struct Checked {
   Proved proof() const { return proved(mdp(), certificate.lower, certificate.upper); }
 };
 
-Result<World> open_world(const WorldOption& option, const Certificate& certificate) {
+Result<World> open_world(const WorldOption& option, const ExploreOption& explore,
+                         const Certificate& certificate) {
   const Result<WorldSource> source = option.source();
   if (!source) return source.error();
-  if (!source->parameters.empty() || certificate.parameters.empty()) return option.open();
-  // A certificate of another world may name parameters that this one does not have.
-  Result<World> world = find_world(source->name, certificate.parameters);
-  return world ? std::move(world) : option.open();
+  if (source->parameters.empty() && !certificate.parameters.empty()) {
+    // A certificate of another world may name parameters that this one does not have.
+    const WorldSource said{source->name, certificate.parameters};
+    Result<World> world = explore.with_model(find_world(said.name, said.parameters), said);
+    if (world) return world;
+  }
+  return explore.open(option);
 }
 
 Result<Checked> check(OpenCertificate& open, const World& world) {
@@ -167,12 +171,12 @@ Result<void> write_certificate(const std::string& file, const World& world,
   return text ? write_output(file, *text, {input}) : text.error();
 }
 
-Exit verify_certificate(const WorldOption& option, const std::string& file, bool json) {
+Exit verify_certificate(const WorldOption& option, const ExploreOption& explore,
+                        const std::string& file, bool json) {
   Result<OpenCertificate> open = open_certificate(file);
   if (!open) return fail(open.error());
-  const Result<World> world = open_world(option, open->content);
+  const Result<World> world = open_world(option, explore, open->content);
   if (!world) return fail(world.error());
-  if (!world->mdp) return fail({"", 0, 0, "the model of " + world->name + " is not known", ""});
   const Result<Checked> checked = check(*open, *world);
   if (!checked) return fail(checked.error());
   const bool accepted = checked->verdict.accepted;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "quoll/cli/common.hpp"
+#include "quoll/cli/explored.hpp"
 #include "quoll/cli/verb.hpp"
 #include "quoll/env/world.hpp"
 #include "quoll/model/solution.hpp"
@@ -16,6 +17,7 @@ Result<void> write_certificate(const std::string& file, const World& world,
 
 /// Checks a certificate against a model, and prints what is proved or the first state that violates
 /// it. A world without parameters on the command line is opened with those of the certificate.
-Exit verify_certificate(const WorldOption& world, const std::string& file, bool json);
+Exit verify_certificate(const WorldOption& world, const ExploreOption& explore,
+                        const std::string& file, bool json);
 
 }  // namespace quoll::cli

@@ -9,6 +9,7 @@
 #include "quoll/base/json.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
+#include "quoll/cli/explored.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/model/formats/format.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 
 struct CheckOptions {
   WorldOption world;
+  ExploreOption explore;
   std::string discount;
   bool json = false;
 };
@@ -43,9 +45,8 @@ Result<MdpArrays> open_arrays(const CheckOptions& options) {
     const Result<WorldSource> source = options.world.source();
     return source ? read_model_arrays(name, source->parameters) : source.error();
   }
-  const Result<World> world = options.world.open();
+  const Result<World> world = options.explore.open(options.world);
   if (!world) return world.error();
-  if (!world->mdp) return Error{"", 0, 0, "the model of " + world->name + " is not known", ""};
   return world->mdp->arrays();
 }
 
@@ -129,6 +130,7 @@ Exit check_world(const CheckOptions& options) {
 void declare_check(Options& options) {
   auto given = std::make_shared<CheckOptions>();
   given->world.declare(options);
+  given->explore.declare(options);
   options.option("--discount,--gamma", &given->discount, "number in (0, 1]",
                  "discount factor to check with; without it the world's own");
   options.flag("--json", &given->json, "print one JSON object on stdout");

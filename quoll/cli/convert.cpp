@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "quoll/cli/common.hpp"
+#include "quoll/cli/explored.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/model/formats/format.hpp"
 #include "quoll/model/losses.hpp"
@@ -12,6 +13,7 @@ namespace {
 
 struct ConvertOptions {
   WorldOption world;
+  ExploreOption explore;
   std::string file;
 };
 
@@ -25,12 +27,8 @@ Result<std::string> lost(const Mdp& mdp, const std::string& file) {
 }
 
 Exit convert(const ConvertOptions& options) {
-  const Result<World> world = options.world.open();
+  const Result<World> world = options.explore.open(options.world);
   if (!world) return fail(world.error());
-  if (!world->mdp) {
-    return fail(
-        {"", 0, 0, "the model of " + world->name + " is not known: it cannot be converted", ""});
-  }
   const Result<std::vector<WrittenFile>> files = write_model(*world->mdp, options.file);
   if (!files) return fail(files.error());
   std::string names;
@@ -52,6 +50,7 @@ Exit convert(const ConvertOptions& options) {
 void declare_convert(Options& options) {
   auto given = std::make_shared<ConvertOptions>();
   given->world.declare(options);
+  given->explore.declare(options);
   options.word("file", given->file,
                "the file to write; its ending says the format (see 'quoll list formats')");
   options.run([given] { return convert(*given); });

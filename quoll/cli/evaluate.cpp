@@ -13,6 +13,7 @@
 #include "quoll/cli/common.hpp"
 #include "quoll/cli/evaluate_sample.hpp"
 #include "quoll/cli/exact.hpp"
+#include "quoll/cli/explored.hpp"
 #include "quoll/cli/policy_file.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/experiment/evaluation.hpp"
@@ -42,6 +43,7 @@ struct EvaluationSettings {
 
 struct EvaluateOptions {
   WorldOption world;
+  ExploreOption explore;
   OutputOption output;
   GivenSettings given;
   std::string policy;
@@ -249,7 +251,12 @@ Exit evaluate(const EvaluateOptions& options) {
   EvaluationSettings asked;
   const Result<void> applied = options.given.apply(settings_of(asked));
   if (!applied) return fail(applied.error());
-  const Result<World> world = options.world.open(options.given);
+  Result<World> world = options.world.open(options.given);
+  if (options.explore.given()) {
+    const Result<WorldSource> source = options.world.source();
+    if (!source) return fail(source.error());
+    world = options.explore.with_model(std::move(world), *source, options.output.quiet);
+  }
   if (!world) return fail(world.error());
   if (options.policy.empty()) {
     return fail(
@@ -277,6 +284,7 @@ void declare_evaluate(Options& options) {
   auto given = std::make_shared<EvaluateOptions>();
   EvaluationSettings defaults;
   given->world.declare(options);
+  given->explore.declare(options, false);
   options.option("--policy", &given->policy, "FILE|uniform",
                  "the policy: a .csv, .json or .quoll file, or uniform");
   given->given.declare_flags(options, settings_of(defaults));

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "quoll/base/text.hpp"
+#include "quoll/cli/explored.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/report/curve_svg.hpp"
 #include "quoll/report/graph_svg.hpp"
@@ -19,6 +20,7 @@ constexpr std::string_view kinds[] = {"graph", "map", "q", "policy", "curve"};
 
 struct ShowOptions {
   WorldOption world;
+  ExploreOption explore;
   std::string kind, run, file, discount;
   bool all = false;
 };
@@ -194,7 +196,8 @@ Exit present(const Exhibit& exhibit, const ShowOptions& options, const std::stri
 Exit show(const ShowOptions& options) {
   const Result<void> file = checked_file(options.file);
   if (!file) return fail(file.error());
-  const Result<World> world = options.world.open();
+  const bool exact = options.run.empty() && options.kind != "curve";
+  const Result<World> world = exact ? options.explore.open(options.world) : options.world.open();
   if (!world) return fail(world.error());
   const Result<std::string> kind = checked_kind(options, *world);
   if (!kind) return fail(kind.error());
@@ -212,9 +215,6 @@ Exit show(const ShowOptions& options) {
     }
     return present(exhibit, options, *kind);
   }
-  if (!world->mdp) {
-    return fail({"show", 0, 0, "the model of " + world->name + " is not known: give --run", ""});
-  }
   const Result<double> discount = discount_of(options.discount, world->discount);
   if (!discount) return fail(discount.error());
   const Result<Exhibit> exhibit = exact_exhibit(*world, *discount);
@@ -228,6 +228,7 @@ Exit show(const ShowOptions& options) {
 void declare_show(Options& options) {
   auto given = std::make_shared<ShowOptions>();
   given->world.declare(options);
+  given->explore.declare(options);
   options.word("kind", given->kind,
                "graph, map, q, policy or curve; without it a map for grids, a graph for up to 60 "
                "states, else q",

@@ -14,6 +14,7 @@
 #include "quoll/cli/certificate.hpp"
 #include "quoll/cli/common.hpp"
 #include "quoll/cli/exact.hpp"
+#include "quoll/cli/explored.hpp"
 #include "quoll/cli/infinite.hpp"
 #include "quoll/cli/learn_report.hpp"
 #include "quoll/cli/solve_exact.hpp"
@@ -53,6 +54,7 @@ struct ExactSettings {
 
 struct SolveOptions {
   WorldOption world;
+  ExploreOption explore;
   OutputOption output;
   GivenSettings given;
   unsigned threads = 0;
@@ -306,13 +308,12 @@ Exit solve(const SolveOptions& options) {
   const Result<void> applied = options.given.apply(settings_of(asked));
   if (!applied) return fail(applied.error());
   const Stopwatch load;
-  const Result<World> world = options.world.open(options.given, asked.minimise);
+  const Result<WorldSource> source = options.world.source(asked.minimise);
+  if (!source) return fail(source.error());
+  const Result<World> world = options.explore.with_model(
+      options.world.open(options.given, asked.minimise), *source, options.output.quiet);
   if (!world) return fail(world.error());
   const double seconds_load = load.seconds();
-  if (!world->mdp) {
-    return fail(
-        {"", 0, 0, "the model of " + world->name + " is not known: it cannot be solved", ""});
-  }
   if (const Result<void> fits = check_form(options, *world); !fits) return fail(fits.error());
   catch_interrupts();
   if (asked.horizon > 0 || asked.average) {
@@ -366,6 +367,7 @@ void declare_solve(Options& options) {
   auto given = std::make_shared<SolveOptions>();
   ExactSettings defaults;
   given->world.declare(options);
+  given->explore.declare(options);
   given->given.declare_flags(options, settings_of(defaults));
   options.option("--threads", &given->threads, "N",
                  "processors to use; 0 = all; changes no result");

@@ -22,6 +22,7 @@ namespace {
 
 struct VerifyOptions {
   WorldOption world;
+  ExploreOption explore;
   std::string file;
   bool json = false;
 };
@@ -101,7 +102,7 @@ std::string verify_text(const Run& run, const JudgedRun& judged) {
 
 Exit verify(const VerifyOptions& options) {
   if (is_certificate(options.file)) {
-    return verify_certificate(options.world, options.file, options.json);
+    return verify_certificate(options.world, options.explore, options.file, options.json);
   }
   const Result<World> world = options.world.open();
   if (!world) return fail(world.error());
@@ -127,6 +128,7 @@ Exit verify(const VerifyOptions& options) {
 void declare_verify(Options& options) {
   auto given = std::make_shared<VerifyOptions>();
   given->world.declare(options);
+  given->explore.declare(options);
   options.word("file", given->file,
                "a certificate of solve, or a saved run: run.quoll, or the folder of a run");
   options.flag("--json", &given->json, "print one JSON object on stdout");

@@ -22,9 +22,7 @@
 // What `dice` can do stands in env/dice.hpp. A Position that names its fields in a templated
 // persist(auto& archive) shows and takes them by those names.
 
-#include <concepts>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <span>
 #include <string>
@@ -35,92 +33,16 @@
 #include "quoll/env/dice.hpp"
 #include "quoll/env/environment.hpp"
 #include "quoll/env/lane_dice.hpp"
+#include "quoll/env/members.hpp"
+#include "quoll/env/positions.hpp"
 #include "quoll/env/world.hpp"
 
 namespace quoll {
 
-/// What a struct must have. The assertions in batch() name the member that is missing.
-template <class D>
-concept HasPosition = requires { typename D::Position; } && std::copyable<typename D::Position>;
-template <class D>
-concept HasSpaces = requires(const D d) {
-  { d.spaces() } -> std::same_as<Spaces>;
-};
-template <class D>
-concept HasStart = requires(const D d, Rng& dice) {
-  { d.start(dice) } -> std::convertible_to<typename D::Position>;
-};
-template <class D>
-concept HasStep = requires(const D d, typename D::Position& at, Action action, Rng& dice) {
-  { d.step(at, action, dice) } -> std::same_as<Feedback>;
-};
-template <class D>
-concept HasNumber = requires(const D d, const typename D::Position& at) {
-  { d.number(at) } -> std::convertible_to<State>;
-};
-template <class D>
-concept HasObserve =
-    requires(const D d, const typename D::Position& at, std::span<float> x) { d.observe(at, x); };
-template <class D>
-concept Dynamics =
-    HasPosition<D> && HasSpaces<D> && HasStart<D> && HasStep<D> && (HasNumber<D> || HasObserve<D>);
-
-/// Worlds whose states differ in their number of actions.
-template <class D>
-concept HasActions = requires(const D d, State s) {
-  { d.actions(s) } -> std::convertible_to<Action>;
-};
-
-/// Worlds that can be put into any numbered state.
-template <class D>
-concept Settable = requires(const D d, State s) {
-  { d.position(s) } -> std::convertible_to<typename D::Position>;
-};
-
-/// Worlds whose actions have names.
-template <class D>
-concept HasActionNames = requires(const D d) {
-  { d.action_names() } -> std::same_as<std::vector<std::string>>;
-};
-
 namespace detail {
 
-// The position of a lane as bytes in an archive: persist() if the type has it, else its own bytes.
-template <class Position>
-void persist_position(Archive& archive, Position& position) {
-  if constexpr (requires { position.persist(archive); }) {
-    position.persist(archive);
-  } else if constexpr (std::is_arithmetic_v<Position>) {
-    archive("position", position);
-  } else {
-    static_assert(std::is_trivially_copyable_v<Position>,
-                  "Position needs persist(Archive&), or must be trivially copyable");
-    std::string bytes(reinterpret_cast<const char*>(&position), sizeof position);
-    archive("position", bytes);
-    if (bytes.size() != sizeof position) return archive.fail("a position of another world");
-    std::memcpy(&position, bytes.data(), sizeof position);
-  }
-}
-
-/// Whether nothing is missing; each assertion names one member.
-template <class D>
-constexpr bool complete() {
-  static_assert(HasPosition<D>, "a world needs a copyable type: using Position = ...;");
-  if constexpr (HasPosition<D>) {
-    static_assert(HasSpaces<D>, "a world needs: quoll::Spaces spaces() const");
-    static_assert(HasStart<D>, "a world needs: Position start(auto& dice) const");
-    static_assert(
-        HasStep<D>,
-        "a world needs: quoll::Feedback step(Position&, quoll::Action, auto& dice) const");
-    static_assert(HasNumber<D> || HasObserve<D>,
-                  "a world needs: quoll::State number(const Position&) const, or "
-                  "void observe(const Position&, std::span<float>) const");
-  }
-  return Dynamics<D>;
-}
-
 template <Dynamics D, class DiceOfLanes>
-class Batch final : public Environment, private Inspector {
+class Batch final : public Environment, public PositionsSource, private Inspector {
  public:
   Batch(D dynamics, const Lanes& lanes)
       : dynamics_(std::move(dynamics)),
@@ -171,13 +93,13 @@ class Batch final : public Environment, private Inspector {
     }
   }
   Inspector* inspector() override { return this; }
+  std::shared_ptr<Positions> positions() const override {
+    return std::make_shared<PositionsOf<D>>(dynamics_);
+  }
 
  private:
   using Position = typename D::Position;
-  static constexpr bool named_fields =
-      requires(Position at, TreeWriter& writer) { at.persist(writer); };
-  static constexpr bool has_tree =
-      named_fields || std::is_arithmetic_v<Position> || requires(Position at) { at.size(); };
+  static constexpr bool has_tree = ShownAsTree<Position>;
 
   void show(std::size_t lane, std::span<State> state, std::span<float> observation) const {
     if constexpr (HasNumber<D>) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "quoll/base/text.hpp"
+#include "quoll/env/explore.hpp"
 #include "quoll/env/mdp_environment.hpp"
 #include "quoll/model/formats/format.hpp"
 #include "quoll/model/goal.hpp"
@@ -153,10 +154,14 @@ Offer offer_of(const WorldEntry& entry) {
   return offer;
 }
 
-Result<World> find_world(const std::string& name_or_file, const Parameters& parameters) {
+namespace {
+
+Result<World> find(const std::string& name_or_file, const Parameters& parameters,
+                   const ExploreSettings* exploration) {
   Parameters of_world = parameters;
   const Goal goal = take_goal(of_world);
   Result<World> world = find_unaimed(name_or_file, of_world);
+  if (world && exploration) world = explored(*std::move(world), *exploration);
   if (!world || (goal.states.empty() && goal.rewards.empty())) return world;
   Parameters all = world->parameters;
   for (const auto& one : parameters) {
@@ -165,6 +170,17 @@ Result<World> find_world(const std::string& name_or_file, const Parameters& para
   world = aimed(*std::move(world), goal);
   if (world) world->parameters = std::move(all);
   return world;
+}
+
+}  // namespace
+
+Result<World> find_world(const std::string& name_or_file, const Parameters& parameters) {
+  return find(name_or_file, parameters, nullptr);
+}
+
+Result<World> find_explored(const std::string& name_or_file, const Parameters& parameters,
+                            const ExploreSettings& exploration) {
+  return find(name_or_file, parameters, &exploration);
 }
 
 }  // namespace quoll

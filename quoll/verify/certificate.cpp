@@ -304,10 +304,10 @@ bool is_certificate(const std::string& path) {
   return lines && lines->next(line) && line.starts_with(magic);
 }
 
-Result<OpenCertificate> open_certificate(const std::string& path) {
-  Result<Lines> lines = Lines::open(path);
-  if (!lines) return Error{path, 0, 0, lines.error().expected, ""};
-  OpenCertificate open{path, {}, 0, std::move(*lines)};
+namespace {
+
+Result<OpenCertificate> open_lines(Lines lines, const std::string& path) {
+  OpenCertificate open{path, {}, 0, std::move(lines)};
   std::string_view line;
   if (!open.lines.next(line) || !line.starts_with(magic)) {
     return Error{path, 0, 0,
@@ -325,6 +325,18 @@ Result<OpenCertificate> open_certificate(const std::string& path) {
   const Result<void> head = HeadReader(open).read();
   if (!head) return head.error();
   return open;
+}
+
+}  // namespace
+
+Result<OpenCertificate> open_certificate(const std::string& path) {
+  Result<Lines> lines = Lines::open(path);
+  if (!lines) return Error{path, 0, 0, lines.error().expected, ""};
+  return open_lines(std::move(*lines), path);
+}
+
+Result<OpenCertificate> open_certificate(std::string_view text, const std::string& path) {
+  return open_lines(Lines(text), path);
 }
 
 Result<Verdict> read_claims(OpenCertificate& open, const Mdp& mdp) {

@@ -46,6 +46,8 @@ struct OpenCertificate {
 
 /// Error: no readable file, not a certificate, a newer one, a line that does not fit.
 Result<OpenCertificate> open_certificate(const std::string& path);
+/// The same for a text in memory, which must outlive it; `path` is for messages.
+Result<OpenCertificate> open_certificate(std::string_view text, const std::string& path);
 
 /// Reads bounds and policy into `open.content`, in any order of states. Accepted means only that
 /// every state of the model is spoken of, by its name and with an action it has; else the verdict

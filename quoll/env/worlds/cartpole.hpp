@@ -105,7 +105,7 @@ struct CartPole {
     }
     return at;
   }
-  Feedback step(Position& at, Action action, Rng&) const {
+  Feedback step(Position& at, Action action, auto&) const {
     if (fallen(at)) return {0.0, true, false};
     const auto force =
         static_cast<Real>(action == 1 ? cartpole::force_size : -cartpole::force_size);

@@ -15,7 +15,7 @@ inline constexpr double radian_in_degrees = 180.0 / std::numbers::pi;
 
 /// x * x; with Gymnasium's dice the C library's pow(x, 2), which is not always that, as NumPy calls
 /// it for `x ** 2`.
-inline double square_of(Rng&, double x) {
+inline double square_of(auto&, double x) {
   return x * x;
 }
 inline double square_of(GuestDice&, double x) {

@@ -161,7 +161,7 @@ struct FickleTaxi {
 
   Position start(auto& dice) const {
     constexpr std::uint32_t starts = 300;
-    const double draw = dice.uniform();
+    const auto draw = dice.uniform();
     double sum = 0.0;
     Position at;
     for (State s = 0; s < cab_states && !(sum > draw); ++s) {
@@ -173,7 +173,7 @@ struct FickleTaxi {
     return at;
   }
   Feedback step(Position& at, Action action, auto& dice) const {
-    const double draw = dice.uniform();
+    const auto draw = dice.uniform();
     if (has_arrived(at.cab)) return {0.0, true, false};
     const std::vector<Way> all = ways(settings, at.cab, action);
     std::size_t taken = 0;
