@@ -4,9 +4,9 @@
 //   dice.below(n)           a whole number in [0, n)
 //   between(dice, low, high), chance(dice, p), pick(dice, running sums)   made of those
 //   sin_of(dice, x), cos_of(dice, x)   the dice decide whose functions
-// and are instantiated for exactly three kinds of dice: Rng (base/random.hpp), portable, a stream for
-// starts and one for steps; GuestDice, one generator for both in the order that Gymnasium draws, with
-// the C library's functions as NumPy calls them; Branches (branches.hpp), all that chance can do.
+// and are instantiated for exactly three kinds of dice: Rng (base/random.hpp), one stream for
+// starts and one for steps; GuestDice, one generator for both in Gymnasium's order, with the C
+// library's functions as NumPy calls them; Branches (branches.hpp), all that chance can do.
 
 #include <cmath>
 #include <cstdint>
