@@ -183,8 +183,6 @@ struct Many : Counter {
     return {1.0 * dice.below(1u << 21), true, false};
   }
 };
-}
-};
 
 TEST(Explore, SaysWhatCannotBeListed) {
   EXPECT_EQ(message(explored_as(Drift{}).error()),
