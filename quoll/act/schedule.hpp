@@ -32,8 +32,9 @@ struct Schedule {
 };
 
 /// "0.1", or "1:0.05:10000" = from 1 to 0.05 over the first 10000 steps. `low` and `high` bound
-/// both values; `place` is the flag or key for the message.
+/// both values; `place` is the flag or key for the message. Where `whole` is not 0 a value may also
+/// be a share of it: "5%", "5%:0.5%:10000".
 Result<Schedule> parse_schedule(std::string_view text, double low, double high,
-                                std::string_view place);
+                                std::string_view place, double whole = 0.0);
 
 }  // namespace quoll

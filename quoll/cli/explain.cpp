@@ -11,6 +11,7 @@
 #include "quoll/base/json.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/initial_rewards.hpp"
+#include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/experiment/config.hpp"
 #include "quoll/report/explain_text.hpp"
@@ -33,14 +34,14 @@ struct ExplainOptions {
 };
 
 // What is explained: a way to learn, and the updates it made.
-struct Lesson {
+struct Lesson : ToldUpdates {
   LearnSettings settings;
   TabularSetup setup;
   const LearnerEntry* entry = nullptr;
-  std::string origin;  // where the transitions come from, one sentence
-  bool own = false;    // the updates are a learner's own, not a replay
-  std::vector<Update> updates;
+  std::string origin;            // where the transitions come from, one sentence
+  bool own = false;              // the updates are a learner's own, not a replay
   std::vector<Update> standard;  // the standard rule beside it; empty for the standard rule itself
+  UpdateWords words() const { return own ? own_words(*entry) : UpdateWords::of(settings.rule); }
   bool printed() const { return settings.rule == "as-printed"; }
   bool all_zero() const {
     return printed() && std::all_of(setup.initial_rewards.begin(), setup.initial_rewards.end(),
@@ -71,16 +72,14 @@ void continue_trace(Lesson& lesson, std::vector<Update>& script) {
 // The first episode of a run, or the steps asked for.
 void own_updates(Lesson& lesson, std::uint64_t steps) {
   lesson.own = true;
-  std::vector<Update> log(steps > 0 ? steps : 10);
   const std::unique_ptr<Learner> learner = lesson.entry->make(lesson.setup);
-  log.resize(learner->advance(log.size(), log).logged);
+  advance_told(*learner, *lesson.entry, steps > 0 ? steps : 10, lesson);
   if (steps == 0) {
-    const auto end = std::find_if(log.begin(), log.end(), [](const Update& update) {
-      return update.terminated || update.truncated;
-    });
-    if (end != log.end()) log.erase(end + 1, log.end());
+    const auto end =
+        std::find_if(lesson.updates.begin(), lesson.updates.end(),
+                     [](const Update& update) { return update.terminated || update.truncated; });
+    if (end != lesson.updates.end()) lesson.updates.erase(end + 1, lesson.updates.end());
   }
-  lesson.updates = std::move(log);
   lesson.origin = fmt::format(
       "The first {} of a run, seed {}, actions {}, starts {}:",
       lesson.updates.size() == 1 ? "step" : std::to_string(lesson.updates.size()) + " steps",
@@ -142,14 +141,19 @@ std::vector<double> first_table(const Lesson& lesson, const Mdp& mdp) {
 }
 
 std::string heading(const Lesson& lesson, const World& world) {
-  const UpdateWords words = UpdateWords::of(lesson.settings.rule);
-  return fmt::format(
-      "explain {}   {}, rule {}, discount {}, step size {}, every {} = {} at first\n", world.name,
-      lesson.settings.method, lesson.settings.rule, number_text(lesson.setup.discount),
-      lesson.setup.step_size.text(), words.q, number_text(lesson.setup.initial_value));
+  const std::string rule = lesson.entry->rule.empty() ? "" : ", rule " + lesson.settings.rule;
+  return fmt::format("explain {}   {}{}, discount {}, step size {}, every {} = {} at first\n",
+                     world.name, lesson.settings.method, rule, number_text(lesson.setup.discount),
+                     lesson.setup.step_size.text(), lesson.words().q,
+                     number_text(lesson.setup.initial_value));
 }
 
 std::string rule_text(const Lesson& lesson, const Mdp& mdp) {
+  if (lesson.entry->replay == nullptr) {
+    const LearnerEntry& entry = *lesson.entry;
+    return std::string(entry.formula.empty() ? entry.summary : entry.formula) +
+           (mdp.alternating() ? "\nThe turn passes: what follows counts negative.\n" : "\n");
+  }
   const char* const sign = mdp.alternating() ? "-" : "+";  // the next move is the other player's
   if (lesson.settings.rule == "reward-estimate") {
     return fmt::format(
@@ -233,11 +237,11 @@ std::string q_text(const Lesson& lesson, const Mdp& mdp, const UpdateTeller& tel
 
 std::string lesson_text(const Lesson& lesson, const World& world, bool all) {
   const Mdp& mdp = *world.mdp;
-  UpdateWords words = UpdateWords::of(lesson.settings.rule);
-  words.chance = lesson.own;
-  UpdateTeller teller(mdp, first_table(lesson, mdp), lesson.setup.discount, words);
+  UpdateTeller teller(mdp, first_table(lesson, mdp), lesson.setup.discount, lesson.words());
   std::string text = heading(lesson, world), told;
-  for (const Update& update : lesson.updates) told += teller.tell(update);
+  for (std::size_t i = 0; i < lesson.updates.size(); ++i) {
+    told += teller.tell(lesson.updates[i], lesson.beside(i));
+  }
   if (!lesson.printed()) {
     text += rule_text(lesson, mdp) + "\n" + lesson.origin + "\n" + told;
     return text + "\n" + q_text(lesson, mdp, teller, all);
@@ -260,16 +264,16 @@ std::string lesson_text(const Lesson& lesson, const World& world, bool all) {
 std::string lesson_json(const Lesson& lesson, const World& world, bool all) {
   const Mdp& mdp = *world.mdp;
   const bool is_float = !lesson.printed() && lesson.setup.precision == Precision::single;
-  UpdateWords words = UpdateWords::of(lesson.settings.rule);
-  words.chance = lesson.own;
-  UpdateTeller teller(mdp, first_table(lesson, mdp), lesson.setup.discount, words);
+  UpdateTeller teller(mdp, first_table(lesson, mdp), lesson.setup.discount, lesson.words());
   JsonWriter json(JsonStyle::pretty);
   json.begin_object().member("world", world.name).member("method", lesson.settings.method);
-  json.member("rule", lesson.settings.rule).member("discount", lesson.setup.discount);
+  write_rule(json, *lesson.entry);
+  json.member("discount", lesson.setup.discount);
   json.member("step_size", lesson.setup.step_size.text());
   json.rows("updates", lesson.updates.size(), all, [&](std::uint64_t i) {
     teller.write(json, lesson.updates[i], is_float,
-                 lesson.printed() ? std::optional(lesson.standard[i].new_value) : std::nullopt);
+                 lesson.printed() ? std::optional(lesson.standard[i].new_value) : std::nullopt,
+                 lesson.beside(i));
   });
   const auto first = first_difference({&mdp, lesson.updates, lesson.standard});
   json.key("first_difference");

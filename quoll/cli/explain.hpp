@@ -11,6 +11,7 @@
 
 #include "quoll/cli/common.hpp"
 #include "quoll/learn/learner.hpp"
+#include "quoll/report/explain_text.hpp"
 
 namespace quoll::cli {
 
@@ -28,6 +29,23 @@ std::vector<Update> observed(const Mdp& mdp, std::span<const Update> updates);
 /// The standard rule with step size 1, from Q = 0, on the same transitions.
 Result<std::vector<Update>> standard_beside(const LearnSettings& settings, const World& world,
                                             std::span<const Update> updates);
+
+/// Updates of a learner, and what each of them changed beside its own pair: empty unless the method
+/// has memory.
+struct ToldUpdates {
+  std::vector<Update> updates;
+  std::vector<std::vector<OtherChange>> others;
+  std::span<const OtherChange> beside(std::size_t i) const {
+    return others.empty() ? std::span<const OtherChange>() : others[i];
+  }
+};
+/// Advances by at most `steps` and appends what happened. Cost for methods with memory: the whole
+/// table each step.
+LearnProgress advance_told(Learner& learner, const LearnerEntry& entry, std::uint64_t steps,
+                           ToldUpdates& told);
+
+/// The words for the updates that a learner of this entry made itself.
+UpdateWords own_words(const LearnerEntry& entry);
 
 /// The banner of the rule as-printed.
 std::string as_printed_banner(bool all_zero);

@@ -5,6 +5,7 @@
 #include "quoll/base/json.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/explain.hpp"
+#include "quoll/cli/judged_run.hpp"
 #include "quoll/env/listed.hpp"
 
 namespace quoll::cli {
@@ -35,9 +36,8 @@ std::string text_of(const Known& known) {
                grouped(known.estimates.visits[c]), a == known.greedy ? "<- greedy" : ""});
   }
   return text + table.text() +
-         fmt::format("\nLearned Q: rule {}, seed {}, after {} steps.\n",
-                     known.run.settings().learn.rule, first.seed(),
-                     grouped(first.learner().progress().steps));
+         fmt::format("\nLearned Q: {}, seed {}, after {} steps.\n", rule_words(known.run.entry()),
+                     first.seed(), grouped(first.learner().progress().steps));
 }
 
 std::string json_of(const Known& known) {

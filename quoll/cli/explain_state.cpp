@@ -8,6 +8,7 @@
 #include "quoll/base/json.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/explain.hpp"
+#include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/learn_report.hpp"
 #include "quoll/report/explain_text.hpp"
 #include "quoll/solve/solver.hpp"
@@ -247,7 +248,7 @@ Result<void> add_run(StateAnswer& answer, const WorldOption& option, const std::
   const Training& first = run->trainings().front();
   answer.learned = first.learner().estimates();
   answer.discount = run->discount();
-  answer.learned_from = fmt::format("rule {}, seed {}, after {} steps", run->settings().learn.rule,
+  answer.learned_from = fmt::format("{}, seed {}, after {} steps", rule_words(run->entry()),
                                     first.seed(), grouped(first.learner().progress().steps));
   return {};
 }

@@ -134,4 +134,41 @@ std::string as_printed_banner(bool all_zero) {
          "then it counts the future again.\n";
 }
 
+LearnProgress advance_told(Learner& learner, const LearnerEntry& entry, std::uint64_t steps,
+                           ToldUpdates& told) {
+  std::vector<Update> log(steps);
+  const auto append = [&](std::uint64_t count) {
+    told.updates.insert(told.updates.end(), log.begin(),
+                        log.begin() + static_cast<std::ptrdiff_t>(count));
+  };
+  if (entry.replay != nullptr) {
+    const LearnProgress now = learner.advance(steps, log);
+    append(now.logged);
+    return now;
+  }
+  std::vector<double> before = learner.estimates().q;
+  LearnProgress now = learner.progress();
+  for (; steps > 0 && now.halt == LearnProgress::Halt::none; --steps) {
+    now = learner.advance(1, std::span(log).first(1));
+    append(now.logged);
+    const Estimates estimates = learner.estimates();
+    std::vector<OtherChange>& others = told.others.emplace_back();
+    const std::uint64_t own = estimates.row_begin[log[0].state] + log[0].action;
+    for (std::uint64_t c = 0; c < before.size(); ++c) {
+      if (c != own && before[c] != estimates.q[c]) {
+        others.push_back({c, before[c], estimates.q[c]});
+      }
+    }
+    before = estimates.q;
+  }
+  return now;
+}
+
+UpdateWords own_words(const LearnerEntry& entry) {
+  UpdateWords words = UpdateWords::of(entry.rule.empty() ? "standard" : entry.rule);
+  words.chance = true;
+  words.memory = entry.replay == nullptr;
+  return words;
+}
+
 }  // namespace quoll::cli

@@ -62,8 +62,9 @@ Result<const Target*> find_target(const ExportOptions& options) {
 std::string learned_by(const Run& run) {
   const LearnSettings& learn = run.settings().learn;
   const Training& first = run.trainings().front();
-  return fmt::format("Learned by {}, rule {}, discount {}, seed {}, {} steps.", learn.method,
-                     learn.rule, shortest(run.discount()), first.seed(),
+  return fmt::format("Learned by {}{}, discount {}, seed {}, {} steps.", learn.method,
+                     run.entry().rule.empty() ? "" : ", " + rule_words(run.entry()),
+                     shortest(run.discount()), first.seed(),
                      grouped(first.learner().progress().steps));
 }
 

@@ -6,6 +6,17 @@
 
 namespace quoll::cli {
 
+std::string rule_words(const LearnerEntry& entry) {
+  return entry.rule.empty() ? std::string(entry.method) : "rule " + std::string(entry.rule);
+}
+
+void write_rule(JsonWriter& json, const LearnerEntry& entry) {
+  if (entry.rule.empty())
+    json.null_member("rule");
+  else
+    json.member("rule", entry.rule);
+}
+
 std::string unsound(const Run& run) {
   if (run.entry().sound) return "";
   return "the rule " + run.settings().learn.rule +

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "quoll/base/error.hpp"
+#include "quoll/base/json.hpp"
 #include "quoll/experiment/run.hpp"
 #include "quoll/model/solution.hpp"
 #include "quoll/solve/optimality.hpp"
@@ -14,6 +15,11 @@ namespace quoll::cli {
 
 /// The reason why a run may be neither certified nor exported; empty = it may.
 std::string unsound(const Run& run);
+
+/// "rule standard", or the method where that has no choice of rules.
+std::string rule_words(const LearnerEntry& entry);
+/// The member "rule" of a JSON object: null where the method has no choice of rules.
+void write_rule(JsonWriter& json, const LearnerEntry& entry);
 
 /// One seed's policy, greedy among the actions it visited.
 struct JudgedSeed {

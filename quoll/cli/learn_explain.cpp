@@ -65,16 +65,12 @@ Result<ComingUpdates> coming_updates(Run& run, const RunSettings& limits, bool a
   coming.table = first.estimates();
   const std::size_t most = most_updates(run, limits, all);
   LearnProgress now = coming.before;
-  std::vector<Update> log;
   while (now.halt == LearnProgress::Halt::none) {
     const std::uint64_t left = chunk(limits, now, default_budget(run.world()), 4096);
     const std::uint64_t steps = std::min<std::uint64_t>(left, most - coming.updates.size());
     coming.more = left > 0;
     if (steps == 0) break;
-    log.resize(steps);
-    now = (*copy)->advance(steps, log);
-    coming.updates.insert(coming.updates.end(), log.begin(),
-                          log.begin() + static_cast<std::ptrdiff_t>(now.logged));
+    now = advance_told(**copy, run.entry(), steps, coming);
     coming.more = false;
   }
   if (run.settings().learn.rule == "as-printed" && coming.before.steps == 0) {
@@ -118,9 +114,8 @@ Result<StandardBeside> standard_beside(const Run& run, Learner* twin) {
 namespace {
 
 UpdateTeller teller_of(const Run& run, const ComingUpdates& coming) {
-  UpdateWords words = UpdateWords::of(run.settings().learn.rule);
-  words.chance = true;
-  return UpdateTeller(*run.world().mdp, coming.table.q, run.discount(), words, coming.table.visits);
+  return UpdateTeller(*run.world().mdp, coming.table.q, run.discount(), own_words(run.entry()),
+                      coming.table.visits);
 }
 
 std::string one_column(const Run& run, const ComingUpdates& coming) {
@@ -139,7 +134,7 @@ std::string one_column(const Run& run, const ComingUpdates& coming) {
       steps = 0;
       sum = 0.0;
     }
-    text += teller.tell(update);
+    text += teller.tell(update, coming.beside(i));
     ++steps;
     sum += seen[i].reward;
     begins = update.terminated || update.truncated;
@@ -187,7 +182,8 @@ void write_updates(JsonWriter& json, const Run& run, const ComingUpdates& coming
   json.rows("updates", coming.updates.size(), all, [&](std::uint64_t i) {
     teller.write(
         json, coming.updates[i], coming.table.single_precision,
-        coming.standard.empty() ? std::nullopt : std::optional(coming.standard[i].new_value));
+        coming.standard.empty() ? std::nullopt : std::optional(coming.standard[i].new_value),
+        coming.beside(i));
   });
 }
 

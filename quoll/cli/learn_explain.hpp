@@ -9,14 +9,14 @@
 
 #include "quoll/base/json.hpp"
 #include "quoll/cli/common.hpp"
+#include "quoll/cli/explain.hpp"
 
 namespace quoll::cli {
 
 /// The updates that the run's first seed is about to make.
-struct ComingUpdates {
-  LearnProgress before;  ///< where the learner stood
-  Estimates table;       ///< what it had learned by then
-  std::vector<Update> updates;
+struct ComingUpdates : ToldUpdates {
+  LearnProgress before;          ///< where the learner stood
+  Estimates table;               ///< what it had learned by then
   std::vector<Update> standard;  ///< for as-printed: the standard rule on the same transitions
   bool more = false;             ///< the run goes on after the last one listed
 };

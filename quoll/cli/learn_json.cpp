@@ -1,6 +1,7 @@
 // The JSON object of `learn` (docs/json.md).
 
 #include "quoll/base/json.hpp"
+#include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/learn_certificate.hpp"
 #include "quoll/cli/learn_report.hpp"
 
@@ -152,7 +153,8 @@ std::string learn_json(const Run& run, const RunResult& result, const LearnStory
   JsonWriter json(JsonStyle::pretty);
   json.begin_object();
   json.member("world", run.world().name).member("method", learn.method);
-  json.member("rule", learn.rule).member("discount", run.discount()).member("seed", learn.seed);
+  write_rule(json, run.entry());
+  json.member("discount", run.discount()).member("seed", learn.seed);
   json.member("steps", steps).member("seconds", result.seconds);
   json.member("steps_per_second",
               result.seconds > 0.0 ? static_cast<double>(steps) / result.seconds : 0.0);

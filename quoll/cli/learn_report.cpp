@@ -37,11 +37,14 @@ namespace {
 std::string heading(const Run& run) {
   const LearnSettings& learn = run.settings().learn;
   const Result<TabularSetup> setup = resolve(learn, run.world());
-  std::string text = fmt::format("learn {}   {}, rule {}, discount {}", run.world().name,
-                                 learn.method, learn.rule, shortest(run.discount()));
+  std::string text =
+      fmt::format("learn {}   {}{}, discount {}", run.world().name, learn.method,
+                  run.entry().rule.empty() ? "" : ", rule " + learn.rule, shortest(run.discount()));
   if (setup) {
     text += fmt::format(", step size {}, actions {}, starts {}, episodes of at most {} steps",
-                        setup->step_size.text(), learn.explore, learn.start, setup->episode_steps);
+                        setup->step_size.text(),
+                        run.entry().traits.directed ? "by hope" : std::string_view(learn.explore),
+                        learn.start, setup->episode_steps);
   }
   if (run.settings().seeds > 1) {
     text += fmt::format(", seeds {} to {}", learn.seed, learn.seed + run.settings().seeds - 1);

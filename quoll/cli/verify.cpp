@@ -50,7 +50,8 @@ std::string verify_json(const Run& run, const Outcome& outcome, const std::strin
   JsonWriter json(JsonStyle::pretty);
   json.begin_object();
   json.member("world", run.world().name).member("file", file);
-  json.member("method", run.settings().learn.method).member("rule", run.settings().learn.rule);
+  json.member("method", run.settings().learn.method);
+  write_rule(json, run.entry());
   json.member("discount", run.discount()).member("accepted", outcome.refusal.empty());
   if (outcome.refusal.empty())
     json.null_member("reason");
@@ -75,9 +76,9 @@ std::string verify_json(const Run& run, const Outcome& outcome, const std::strin
 
 std::string verify_text(const Run& run, const JudgedRun& judged) {
   std::string text = fmt::format(
-      "accepted  {}   rule {}, discount {}: the bounds of the exact answer ({}) hold, checked "
+      "accepted  {}   {}, discount {}: the bounds of the exact answer ({}) hold, checked "
       "independently\n",
-      run.world().name, run.settings().learn.rule, shortest(run.discount()), judged.exact.method);
+      run.world().name, rule_words(run.entry()), shortest(run.discount()), judged.exact.method);
   for (const JudgedSeed& seed : judged.seeds) {
     const Optimality& judgement = seed.optimality;
     text += fmt::format("seed {}, {}: optimal {} ({})", seed.seed, counted(seed.steps, "step"),

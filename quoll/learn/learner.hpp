@@ -70,6 +70,9 @@ struct LearnerTraits {
   bool has_bounds = false;
   /// Tries only what may matter from where it starts: not every value is learned.
   bool directed = false;
+  /// Hopes: begins with the most that any policy can earn unless --initial-value says else, and
+  /// acts on that: --explore has no say.
+  bool optimistic = false;
 };
 
 /// One line of the registry of learners.
@@ -87,6 +90,8 @@ struct LearnerEntry {
   LearnerTraits traits{};
   /// What the method needs of a world beyond a list of its states; nullptr = nothing.
   Result<void> (*check)(const TabularSetup& setup) = nullptr;
+  /// What an update does to the table, one line; empty for rules, whose formulas replay tells.
+  std::string_view formula = {};
 };
 std::span<const LearnerEntry> learners();
 

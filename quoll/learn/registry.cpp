@@ -20,6 +20,13 @@ std::span<const LearnerEntry> learners() {
       empirical_model,
       optimistic_model,
       posterior_sampling,
+      sarsa,
+      expected_sarsa,
+      double_q,
+      n_step,
+      tree_backup,
+      q_lambda,
+      ucb_q,
   };
   return entries;
 }
@@ -31,6 +38,12 @@ Result<const LearnerEntry*> find_learner(const LearnSettings& settings) {
     method.offer(entry.method);
     if (entry.method != settings.method) continue;
     method_known = true;
+    if (entry.rule.empty() && settings.rule != "standard") {
+      return Error{"--rule", 0, 0,
+                   settings.method + " has no choice of rules, but '" + settings.rule +
+                       "' is given; only q-learning has",
+                   ""};
+    }
     if (entry.rule.empty() || entry.rule == settings.rule) return &entry;
     rule.offer(entry.rule);
   }
@@ -49,10 +62,6 @@ Result<std::unique_ptr<Learner>> make_learner(const LearnSettings& settings, con
   if (!entry) return entry.error();
   const Result<TabularSetup> setup = resolve(settings, world, initial_rewards);
   if (!setup) return setup.error();
-  if ((*entry)->check != nullptr) {
-    const Result<void> fits = (*entry)->check(*setup);
-    if (!fits) return fits.error();
-  }
   return (*entry)->make(*setup);
 }
 

@@ -34,8 +34,12 @@ void LearnSettings::describe(Describer& d) {
   d("seed", seed, "which random numbers; the same seed gives the same bits");
   d("explore", explore, "how actions are chosen; see 'quoll list explorations'");
   d("epsilon", epsilon, "epsilon-greedy: share of random actions, or FROM:TO:STEPS");
-  d("temperature", temperature, "softmax: in units of value, or FROM:TO:STEPS");
+  d("temperature", temperature,
+    "softmax: in units of value, in % of the span of rewards, or FROM:TO:STEPS of either");
   d("ucb_constant", ucb_constant, 0, 1e6, "ucb: weight of the bonus, times the span of rewards");
+  d("count_bonus", count_bonus, 0, 1e6,
+    "count-bonus: weight of the bonus, times the span of rewards");
+  d("omega", omega, 1e-6, 1e6, "mellowmax: how far towards the largest Q, per span of rewards");
   d("start", start, "how start states are chosen; see 'quoll list starts'");
   d("step_size", step_size, "auto, a number in (0, 1], 1/N^w or rescaled-linear");
   d("initial_value", initial_value, "value of pairs not visited yet: a number, or optimistic");
@@ -89,16 +93,19 @@ Result<Exploration> exploration(const LearnSettings& settings, const World& worl
   const auto epsilon = parse_schedule(settings.epsilon, 0.0, 1.0, "--epsilon");
   if (!epsilon) return epsilon.error();
   chosen.epsilon = *epsilon;
-  const auto temperature = parse_schedule(settings.temperature, 1e-9, 1e300, "--temperature");
-  if (!temperature) return temperature.error();
-  chosen.temperature = *temperature;
   // The span of rewards, 0 (doing nothing) included: the scale on which UCB1 assumes [0, 1].
   double span = 0.0;
   if (world.traits.reward_bounds) {
     const auto [low, high] = *world.traits.reward_bounds;
     span = std::max(high, 0.0) - std::min(low, 0.0);
   }
-  chosen.ucb_scale = settings.ucb_constant * (span > 0.0 ? span : 1.0);
+  if (!(span > 0.0)) span = 1.0;
+  const auto temperature = parse_schedule(settings.temperature, 1e-9, 1e300, "--temperature", span);
+  if (!temperature) return temperature.error();
+  chosen.temperature = *temperature;
+  chosen.ucb_scale = settings.ucb_constant * span;
+  chosen.count_scale = settings.count_bonus * span;
+  chosen.omega = settings.omega / span;
   return chosen;
 }
 
@@ -161,8 +168,9 @@ Result<StartStates> starts(const LearnSettings& settings, const World& world) {
 }
 
 // "optimistic": the most any policy can earn.
-Result<double> initial_value(const LearnSettings& settings, const TabularSetup& setup) {
-  if (settings.initial_value != "optimistic") {
+Result<double> initial_value(const LearnSettings& settings, const TabularSetup& setup,
+                             bool optimistic) {
+  if (settings.initial_value != "optimistic" && !(optimistic && settings.initial_value == "0")) {
     const auto number = parse_number(settings.initial_value);
     if (number && std::isfinite(*number)) return *number;
     return Error{"--initial-value", 0, 0,
@@ -224,8 +232,9 @@ Result<StepSize> step_size(const LearnSettings& settings, const World& world, do
 }
 
 // What a table of this precision begins with; "all QE = 0" is part of the printed rule.
-Result<double> first_value(const LearnSettings& settings, const TabularSetup& setup) {
-  const auto initial = initial_value(settings, setup);
+Result<double> first_value(const LearnSettings& settings, const TabularSetup& setup,
+                           bool optimistic) {
+  const auto initial = initial_value(settings, setup, optimistic);
   if (!initial) return initial;
   if (settings.rule == "as-printed") return 0.0;
   if (settings.precision == Precision::single &&
@@ -249,6 +258,23 @@ double value_bound(const TabularSetup& setup, const World& world) {
     }
   }
   return std::max(std::fabs(setup.initial_value), largest / (1.0 - setup.discount));
+}
+
+// What the method and the words ask of each other.
+Result<void> check(const LearnSettings& settings, const LearnerEntry& entry,
+                   const TabularSetup& setup) {
+  if (setup.starts.kind() == StartStates::Kind::widest_gap && !entry.traits.has_bounds) {
+    return Error{"--start", 0, 0,
+                 "widest-gap needs a method with an upper and a lower value of each state; " +
+                     settings.method + " has none",
+                 "optimistic-model"};
+  }
+  if (settings.tolerance < 0.0 && settings.tolerance != -1.0) {
+    return Error{
+        "--tolerance", 0, 0,
+        "-1 or a number of at least 0 expected, not '" + shortest(settings.tolerance) + "'", ""};
+  }
+  return entry.check == nullptr ? Result<void>() : entry.check(setup);
 }
 
 }  // namespace
@@ -277,25 +303,16 @@ Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
   const auto starting = starts(settings, world);
   if (!starting) return starting.error();
   setup.starts = *starting;
-  if (setup.starts.kind() == StartStates::Kind::widest_gap && !(*entry)->traits.has_bounds) {
-    return Error{"--start", 0, 0,
-                 "widest-gap needs a method with an upper and a lower value of each state; " +
-                     settings.method + " has none",
-                 "optimistic-model"};
-  }
   const auto step = step_size(settings, world, setup.discount);
   if (!step) return step.error();
   setup.step_size = *step;
-  if (settings.tolerance < 0.0 && settings.tolerance != -1.0) {
-    return Error{
-        "--tolerance", 0, 0,
-        "-1 or a number of at least 0 expected, not '" + shortest(settings.tolerance) + "'", ""};
-  }
   const auto rewards = reward_range(world, settings.reward_range);
   if (!rewards) return rewards.error();
   setup.rewards = *rewards;
   setup.of_method = settings.of_method;
-  const auto initial = first_value(settings, setup);
+  const Result<void> fits = check(settings, **entry, setup);
+  if (!fits) return fits.error();
+  const auto initial = first_value(settings, setup, (*entry)->traits.optimistic);
   if (!initial) return initial.error();
   setup.initial_value = *initial;
   const std::uint64_t choices = world.mdp ? world.mdp->choices() : 0;

@@ -51,6 +51,8 @@ struct LearnSettings {
   std::string epsilon = "0.1";
   std::string temperature = "1";
   double ucb_constant = 1.4;
+  double count_bonus = 0.3;
+  double omega = 5.0;
   std::string start = "world";
   std::string step_size = "auto";
   std::string initial_value = "0";

@@ -35,7 +35,7 @@ Result<StepSize> parse_step_size(std::string_view text, bool deterministic, doub
   if (word == "auto" && deterministic) return step;
   if (word == "auto" || word == "rescaled-linear") {
     step.kind = StepSize::Kind::rescaled_linear;
-    step.value = discount < 1.0 ? 1.0 / (1.0 - discount) : 1000.0;
+    step.value = horizon(discount);
     return step;
   }
   if (word == "1/N" || word.substr(0, 4) == "1/N^") {

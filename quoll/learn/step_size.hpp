@@ -12,6 +12,11 @@
 
 namespace quoll {
 
+/// H: how many steps the future counts for, 1 / (1 - discount); 1000 at discount 1.
+inline double horizon(double discount) {
+  return discount < 1.0 ? 1.0 / (1.0 - discount) : 1000.0;
+}
+
 /// A step size that never changes and is not small, for the loop that needs no other.
 struct ConstantStep {
   double value;
@@ -48,7 +53,7 @@ struct StepSize {
   std::shared_ptr<const std::vector<double>> powers_;  // shared, so that a copy is cheap
 };
 
-/// "0.1", "1/N^0.8", "rescaled-linear" (H = 1 / (1 - discount), or 1000 at discount 1), or "auto":
+/// "0.1", "1/N^0.8", "rescaled-linear" (H = the horizon), or "auto":
 /// 1 in a deterministic world, rescaled-linear in others.
 Result<StepSize> parse_step_size(std::string_view text, bool deterministic, double discount);
 

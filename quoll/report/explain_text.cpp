@@ -12,7 +12,8 @@
 namespace quoll {
 namespace {
 
-constexpr Action most_listed = 8;  // moves of the next state that a formula lists
+constexpr Action most_listed = 8;       // moves of the next state that a formula lists
+constexpr std::size_t most_others = 5;  // lines about other values
 
 std::string action_name(const Mdp& mdp, const Update& update) {
   return mdp.action_name(mdp.choice_begin(update.state) + update.action);
@@ -78,31 +79,49 @@ std::string UpdateTeller::best_text(const Update& update) const {
 }
 
 std::string UpdateTeller::formula(const Update& update) const {
+  if (words_.memory) {
+    const double bonus = update.target - update.reward - discount_ * update.best_next;
+    const bool none = std::fabs(bonus) <= 1e-6 * std::max(1.0, std::fabs(update.target));
+    return fmt::format("{}{} + {} * {} = {}", number_text(update.reward),
+                       none ? "" : " + " + factor_text(bonus), factor_text(discount_),
+                       update.terminated ? "0" : factor_text(update.best_next),
+                       number_text(update.target));
+  }
   return fmt::format("{} + {} * {} = {}", number_text(update.reward), factor_text(discount_),
                      best_text(update), number_text(update.target));
 }
 
-std::string UpdateTeller::tell(const Update& update) {
-  const std::string move = action_name(mdp_, update), next = mdp_.state_name(update.next);
-  const std::string name = fmt::format("{}({},{})", words_.q, mdp_.state_name(update.state), move);
+// "Q(A,go) := ..", with the target on a line of its own where the step is not whole.
+std::string UpdateTeller::change_text(const Update& update, const std::string& name) const {
+  const double target = update.target, old = update.old_value, now = update.new_value;
+  // Methods with memory may change the value later, or in two halves.
+  const double moved = old + update.step_size * (target - old);
+  if (words_.memory && !same(moved, now) &&
+      std::fabs(moved - now) > 1e-6 * std::max(std::fabs(target), std::fabs(old))) {
+    return "target = " + formula(update) + "\n         " + name + " = " + number_text(now);
+  }
+  if (update.step_size == 1.0) {
+    return name + " := " + (words_.reward == UpdateWords::Reward::observed ? "" : "rE ") +
+           formula(update);
+  }
+  return "target = " + formula(update) + "\n         " +
+         fmt::format("{} := {} + {} * ({} - {}) = {}", name, number_text(old),
+                     number_text(update.step_size), number_text(target), factor_text(old),
+                     number_text(now));
+}
+
+std::string UpdateTeller::tell(const Update& update, std::span<const OtherChange> others) {
+  const std::uint64_t pair = mdp_.choice_begin(update.state) + update.action;
+  const std::string next = mdp_.state_name(update.next);
   std::string text = fmt::format("step {:<3} at {}, take {} -> {}", update.step,
-                                 mdp_.state_name(update.state), move, next);
+                                 mdp_.state_name(update.state), action_name(mdp_, update), next);
   using Reward = UpdateWords::Reward;
   if (words_.reward == Reward::observed) text += ", reward " + number_text(update.reward);
   if (words_.chance) text += update.explored ? "   (by chance)" : "   (the best so far)";
-  text += "\n         ";
-  if (update.step_size == 1.0) {
-    text += name + " := " + (words_.reward == Reward::observed ? "" : "rE ") + formula(update);
-  } else {
-    text += "target = " + formula(update) + "\n         " +
-            fmt::format("{} := {} + {} * ({} - {}) = {}", name, number_text(update.old_value),
-                        number_text(update.step_size), number_text(update.target),
-                        factor_text(update.old_value), number_text(update.new_value));
-  }
+  text += "\n         " + change_text(update, choice_text(pair));
   text += update.new_value == update.old_value
               ? "   unchanged"
               : fmt::format("   was {}", number_text(update.old_value));
-  const std::uint64_t pair = mdp_.choice_begin(update.state) + update.action;
   if (words_.reward == Reward::mean) {
     text += fmt::format("   [rE: mean of {} observed reward{}]", visits_[pair] + 1,
                         visits_[pair] == 0 ? "" : "s");
@@ -111,18 +130,47 @@ std::string UpdateTeller::tell(const Update& update) {
   if (update.truncated && !update.terminated) {
     text += "   [the episode is cut off here; the value of " + next + " still counts]";
   }
-  count(update);
+  text += others_text(others);
+  count(update, others);
   return text + "\n";
 }
 
-void UpdateTeller::count(const Update& update) {
+std::string UpdateTeller::others_text(std::span<const OtherChange> others) const {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most_others, others.size()); ++i) {
+    text += fmt::format("\n         also {} = {}   was {}", choice_text(others[i].choice),
+                        number_text(others[i].new_value), number_text(others[i].old_value));
+  }
+  if (others.size() > most_others) {
+    text += fmt::format("\n         and {} more", others.size() - most_others);
+  }
+  return text;
+}
+
+State UpdateTeller::owner(std::uint64_t choice) const {
+  State low = 0;
+  for (auto high = static_cast<State>(mdp_.states()); high - low > 1;) {
+    const State middle = low + (high - low) / 2;
+    (mdp_.choice_begin(middle) <= choice ? low : high) = middle;
+  }
+  return low;
+}
+
+// "Q(HALL,To-CAVE)".
+std::string UpdateTeller::choice_text(std::uint64_t choice) const {
+  return fmt::format("{}({},{})", words_.q, mdp_.state_name(owner(choice)),
+                     mdp_.action_name(choice));
+}
+
+void UpdateTeller::count(const Update& update, std::span<const OtherChange> others) {
   const std::uint64_t pair = mdp_.choice_begin(update.state) + update.action;
   q_[pair] = update.new_value;
   ++visits_[pair];
+  for (const OtherChange& other : others) q_[other.choice] = other.new_value;
 }
 
 void UpdateTeller::write(JsonWriter& json, const Update& update, bool is_float,
-                         std::optional<double> standard) {
+                         std::optional<double> standard, std::span<const OtherChange> others) {
   json.begin_object().member("step", update.step);
   json.member("state", mdp_.state_name(update.state)).member("action", action_name(mdp_, update));
   json.key("reward").number(update.reward, is_float);
@@ -142,8 +190,17 @@ void UpdateTeller::write(JsonWriter& json, const Update& update, bool is_float,
   json.member("target", update.target).member("step_size", update.step_size);
   json.key("new").number(update.new_value, is_float);
   if (standard) json.key("standard").number(*standard, true);
+  if (words_.memory) {
+    json.key("others").begin_array();
+    for (const OtherChange& other : others) {
+      json.begin_object().member("state", mdp_.state_name(owner(other.choice)));
+      json.member("action", mdp_.action_name(other.choice));
+      json.key("new").number(other.new_value, is_float).end_object();
+    }
+    json.end_array();
+  }
   json.end_object();
-  count(update);
+  count(update, others);
 }
 
 std::optional<std::size_t> first_difference(const RuleComparison& view) {

@@ -27,9 +27,17 @@ struct UpdateWords {
   /// Where the first summand comes from: "" = the observed reward, else said as rE.
   enum class Reward : std::uint8_t { observed, stored, mean } reward = Reward::observed;
   bool chance = false;  ///< say whether chance chose the action: the updates are a learner's own
+  bool memory = false;  ///< of a method with memory: what it took as the value of the next state is
+                        ///< said as a number, and what else it changed is told
 
   /// By the name of the rule: standard, as-printed, reward-estimate.
   static UpdateWords of(std::string_view rule);
+};
+
+/// A value that an update changed beside that of its own pair.
+struct OtherChange {
+  std::uint64_t choice = 0;
+  double old_value = 0.0, new_value = 0.0;
 };
 
 /// Tells one update after the other, following the values of the table that the updates make.
@@ -39,8 +47,8 @@ class UpdateTeller {
   UpdateTeller(const Mdp& mdp, std::vector<double> q, double discount, UpdateWords words,
                std::vector<std::uint32_t> visits = {});
 
-  /// Two lines: the step, and its formula. Then the update counts.
-  std::string tell(const Update& update);
+  /// Two lines: the step, and its formula; then what else was changed. Then all of it counts.
+  std::string tell(const Update& update, std::span<const OtherChange> others = {});
 
   /// The formula alone, "0 + 0.8 * max{To-GOAL 100, To-HALL 0} = 80"; changes nothing.
   std::string formula(const Update& update) const;
@@ -48,14 +56,18 @@ class UpdateTeller {
   /// One JSON object with the numbers of the update and the row of the next state; then it counts.
   /// `is_float` = the table holds floats; `standard` = the value the standard rule gives there.
   void write(JsonWriter& json, const Update& update, bool is_float,
-             std::optional<double> standard = {});
+             std::optional<double> standard = {}, std::span<const OtherChange> others = {});
 
   std::span<const double> q() const { return q_; }
   std::span<const std::uint32_t> visits() const { return visits_; }
 
  private:
   std::string best_text(const Update& update) const;
-  void count(const Update& update);
+  std::string change_text(const Update& update, const std::string& name) const;
+  std::string others_text(std::span<const OtherChange> others) const;
+  std::string choice_text(std::uint64_t choice) const;
+  State owner(std::uint64_t choice) const;
+  void count(const Update& update, std::span<const OtherChange> others);
 
   const Mdp& mdp_;
   std::vector<double> q_;

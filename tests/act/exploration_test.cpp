@@ -123,5 +123,83 @@ TEST(Exploration, UcbAddsTheBonusOfRareness) {
   expect_shares(frequencies(ucb, {1, 1, 1, 1}, {3, 3, 3, 4}), {1.0 / 3, 1.0 / 3, 1.0 / 3, 0});
 }
 
+TEST(Exploration, CountBonusTriesTheUntriedFirst) {
+  Exploration bonus = kind(Kind::count_bonus);
+  expect_shares(frequencies(bonus, {9, 0, 9, 0}, {5, 0, 7, 0}), {0, 0.5, 0, 0.5});
+  EXPECT_NEAR(frequencies(bonus, {9, 0, 9, 0}, {5, 0, 7, 0}).explored, 1.0, 1e-9);
+}
+
+// c * span = 2: 0 + 2/1 = 2; 1 + 2/2 = 2; 1.5 + 2/5 = 1.9. The first two tie.
+TEST(Exploration, CountBonusFallsWithTheRootOfTheVisits) {
+  Exploration bonus = kind(Kind::count_bonus);
+  bonus.count_scale = 2.0;
+  expect_shares(frequencies(bonus, {0, 1, 1.5f, no}, {1, 4, 25, 0}), {0.5, 0.5, 0, 0});
+  // Fewer visits of the third: 1.5 + 2/3 = 2.17.
+  expect_shares(frequencies(bonus, {0, 1, 1.5f, no}, {1, 4, 9, 0}), {0, 0, 1, 0});
+  bonus.first_tie = true;
+  expect_shares(frequencies(bonus, {0, 1, 1.5f, no}, {1, 4, 25, 0}), {1, 0, 0, 0});
+}
+
+// Q = 0 and 1, omega = ln 4: mm = ln((1 + 4) / 2) / ln 4 = ln 2.5 / ln 4 = 0.660964. The mean of
+// the policy is to be mm, and with two actions that is the share of the better one.
+TEST(Exploration, MellowmaxHasItsOwnMean) {
+  Exploration mellow = kind(Kind::mellowmax);
+  mellow.omega = std::log(4.0);
+  expect_shares(frequencies(mellow, {0, 1, no, no}), {1 - 0.660964, 0.660964, 0, 0});
+  // Shifted and scaled, with omega to match, it stays the same.
+  mellow.omega = std::log(4.0) / 8;
+  expect_shares(frequencies(mellow, {-16, -8, no, no}), {1 - 0.660964, 0.660964, 0, 0});
+}
+
+// Of all policies with mean mm the one of largest entropy is Boltzmann's: log shares are linear in
+// Q. Q = 0, 1, 3, omega = 1: mm = ln((1 + e + e^3) / 3) = ln 7.934605 = 2.071234.
+TEST(Exploration, MellowmaxIsBoltzmannWithThatMean) {
+  Exploration mellow = kind(Kind::mellowmax);
+  mellow.omega = 1.0;
+  const std::array<float, 4> q{0, 1, 3, no};
+  Four share{};
+  const FourRows<float> rows;
+  const std::uint32_t visits[4] = {};
+  mellow.probabilities(rows, q.data(), visits, 0, rows.view(q.data(), 0), 0, share.data());
+  EXPECT_NEAR(share[0] + share[1] + share[2], 1.0, 1e-12);
+  EXPECT_NEAR(share[1] + 3 * share[2], std::log((1 + std::exp(1) + std::exp(3)) / 3), 1e-8);
+  EXPECT_NEAR(std::log(share[2] / share[0]), 3 * std::log(share[1] / share[0]), 1e-9);
+}
+
+TEST(Exploration, MellowmaxOfEqualAndOfFarValues) {
+  Exploration mellow = kind(Kind::mellowmax);
+  mellow.omega = 5.0;
+  expect_shares(frequencies(mellow, {2, 2, 2, no}), {1.0 / 3, 1.0 / 3, 1.0 / 3, 0});
+  expect_shares(frequencies(mellow, {7, no, no, no}), {1, 0, 0, 0});
+  expect_shares(frequencies(mellow, {-1e30f, 1e30f, -1e30f, no}), {0, 1, 0, 0});
+  mellow.omega = 1e-6;  // the plain mean: chance
+  expect_shares(frequencies(mellow, {0, 1, 2, 3}), {0.25, 0.25, 0.25, 0.25});
+}
+
+// What probabilities() says is what choose() does: every kind, values that differ and that tie.
+TEST(Exploration, ProbabilitiesAreTheFrequencies) {
+  const FourRows<float> rows;
+  for (std::size_t of = 0; of < std::size(exploration_names); ++of) {
+    for (const bool first_tie : {false, true}) {
+      Exploration one = kind(static_cast<Kind>(of));
+      one.first_tie = first_tie;
+      one.epsilon = {0.5, 0.25, 10};
+      one.temperature = {4, 2, 10};
+      one.omega = 0.5;
+      const std::array<std::array<float, 4>, 3> tables = {
+          {{1, 3, 3, 2}, {0, 0, 0, no}, {-1, 2, no, no}}};
+      const std::array<std::array<std::uint32_t, 4>, 3> counts = {
+          {{4, 4, 4, 9}, {3, 0, 0, 0}, {1, 50, 0, 0}}};
+      for (std::size_t i = 0; i < tables.size(); ++i) {
+        Four share{};
+        one.probabilities(rows, tables[i].data(), counts[i].data(), 0,
+                          rows.view(tables[i].data(), 0), 5, share.data());
+        expect_shares(frequencies(one, tables[i], counts[i], 5), share);
+        EXPECT_NEAR(share[0] + share[1] + share[2] + share[3], 1.0, 1e-12) << exploration_names[of];
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace quoll

@@ -34,5 +34,18 @@ TEST(Schedule, RefusesWhatIsNoSchedule) {
   }
 }
 
+// 5 % of a span of 40 is 2.
+TEST(Schedule, TakesSharesOfAWholeWhereThereIsOne) {
+  const auto schedule = parse_schedule("5%:0.5%:8", 1e-9, 1e300, "--temperature", 40.0);
+  ASSERT_TRUE(schedule);
+  EXPECT_DOUBLE_EQ(schedule->from, 2.0);
+  EXPECT_DOUBLE_EQ(schedule->to, 0.2);
+  EXPECT_EQ(parse_schedule("3", 1e-9, 1e300, "--temperature", 40.0)->from, 3.0);
+  for (const char* text : {"%", "0%", "x%", "5%%", "1:2:3%"}) {
+    EXPECT_FALSE(parse_schedule(text, 1e-9, 1e300, "--temperature", 40.0)) << text;
+  }
+  EXPECT_FALSE(parse_schedule("5%", 0.0, 1.0, "--epsilon"));
+}
+
 }  // namespace
 }  // namespace quoll

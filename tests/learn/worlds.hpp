@@ -69,6 +69,24 @@ inline World lottery() {
   return to_world("lottery", *builder.build());
 }
 
+/// Two players take one to three of six stones in turn; the last stone earns 8, others cost or earn
+/// something. Rows of two and three actions, ties on the way; no way back, where floats might
+/// circle.
+inline World game() {
+  MdpBuilder builder(0.75);
+  for (int i = 0; i < 6; ++i) {
+    const std::string from = "p" + std::to_string(i);
+    for (int take = 1; take <= 2 + i % 2; ++take) {
+      const bool last = i + take >= 6;
+      builder.move(from, "take" + std::to_string(take),
+                   last ? "END" : "p" + std::to_string(i + take), last ? 8 : take - 2);
+    }
+  }
+  builder.start("p0");
+  builder.alternating(true);
+  return to_world("game", *builder.build());
+}
+
 /// The same world as something that can only be acted in.
 inline World without_model(World world) {
   world.name += " without a model";

@@ -128,19 +128,50 @@ TEST(Learners, WatchingForStabilityChangesNoValue) {
   });
 }
 
+// How far a table is from Q*, relative to max(1, |Q*|): below it, above it, and above it in the
+// best action of the start.
+struct Distance {
+  double below = 0.0, above = 0.0, at_start = 0.0;
+};
+
+Distance distance(const Estimates& estimates, const Mdp& mdp, double discount) {
+  SolveSettings exactly;
+  exactly.width = 1e-12;
+  const auto solution = solve(mdp, exactly);
+  EXPECT_TRUE(solution);
+  Distance far;
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (mdp.terminal(s)) continue;
+    double best = -1e300;
+    for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
+      const double exact = q_star(mdp, solution->lower, c, discount);
+      const double learned = estimates.q[estimates.row_begin[s] + c - mdp.choice_begin(s)];
+      const double error = (learned - exact) / std::max(1.0, std::fabs(exact));
+      far.below = std::max(far.below, -error);
+      far.above = std::max(far.above, error);
+      best = std::max(best, learned);
+    }
+    if (s == mdp.start().front()) {
+      const double exact = solution->lower[s];
+      far.at_start = std::fabs(best - exact) / std::max(1.0, std::fabs(exact));
+    }
+  }
+  return far;
+}
+
 // Without noise a table of floats ends at Q* rounded to float, and is found stable there. Under
 // noise 2,000,000 steps of the default step size come within 2 % of max(1, |Q*|); the fixed seed
-// makes it sure: 20 seeds stayed below 0.6 %.
+// makes it sure: 20 seeds stayed below 0.6 %. What hopes stays above Q*, and comes down to it where
+// it goes (without noise).
 TEST(Learners, SoundRulesReachTheOptimalValues) {
   for (const LearnerEntry& entry : learners()) {
-    if (!entry.sound || !entry.traits.off_policy || entry.traits.directed) continue;
-    for (const World& world : {adventure(), corridor(6), star(), lottery(), slippery(4)}) {
+    const LearnerTraits& traits = entry.traits;
+    if (!entry.sound || !traits.off_policy || (traits.directed && !traits.optimistic)) continue;
+    for (const World& world : {adventure(), corridor(6), star(), lottery(), slippery(4), game()}) {
       // A whole step towards a random successor is no mean over successors.
       if (entry.rule == "reward-estimate" && world.name == "slippery") continue;
-      SolveSettings exactly;
-      exactly.width = 1e-12;
-      const auto solution = solve(*world.mdp, exactly);
-      ASSERT_TRUE(solution);
+      // Hope is for one player, and its bonus in use no proof under noise.
+      if (traits.optimistic && (world.name == "game" || !world.traits.deterministic)) continue;
       for (const World& source : {world, without_model(world)}) {
         LearnSettings settings;
         settings.method = entry.method;
@@ -149,22 +180,14 @@ TEST(Learners, SoundRulesReachTheOptimalValues) {
         const auto one = learner(settings, source);
         // Methods with memory need fewer steps, and more time for each.
         const LearnProgress now = one->advance(entry.replay != nullptr ? 2'000'000 : 400'000, {});
-        if (world.traits.deterministic) {
-          EXPECT_EQ(now.halt, LearnProgress::Halt::stable) << source.name;
+        if (world.traits.deterministic && !traits.optimistic) {
+          EXPECT_EQ(now.halt, LearnProgress::Halt::stable) << entry.method << source.name;
         }
-        const Estimates estimates = one->estimates();
-        for (State s = 0; s < world.mdp->states(); ++s) {
-          if (world.mdp->terminal(s)) continue;
-          for (std::uint64_t c = world.mdp->choice_begin(s); c < world.mdp->choice_end(s); ++c) {
-            const double exact = q_star(*world.mdp, solution->lower, c, world.discount);
-            const double learned =
-                estimates.q[estimates.row_begin[s] + c - world.mdp->choice_begin(s)];
-            const double bound = world.traits.deterministic ? 1e-6 : 0.02;
-            EXPECT_NEAR(learned, exact, bound * std::max(1.0, std::fabs(exact)))
-                << settings.rule << ", " << source.name << ", " << world.mdp->state_name(s) << " "
-                << world.mdp->action_name(c);
-          }
-        }
+        const Distance far = distance(one->estimates(), *world.mdp, world.discount);
+        const double bound = world.traits.deterministic ? 1e-6 : 0.02;
+        const std::string name = settings.method + " " + settings.rule + ", " + source.name;
+        EXPECT_LE(far.below, bound) << name;
+        EXPECT_LE(traits.optimistic ? far.at_start : far.above, bound) << name;
       }
     }
   }
@@ -173,7 +196,7 @@ TEST(Learners, SoundRulesReachTheOptimalValues) {
 // Methods that try only what may matter learn what to do from the start, not every value.
 TEST(Learners, DirectedMethodsActOptimallyFromTheStart) {
   for (const LearnerEntry& entry : learners()) {
-    if (!entry.traits.directed) continue;
+    if (!entry.traits.directed || entry.traits.optimistic) continue;
     for (const World& world : {adventure(), corridor(6), star(), lottery(), slippery(4)}) {
       SolveSettings exactly;
       exactly.width = 1e-12;
@@ -194,6 +217,32 @@ TEST(Learners, DirectedMethodsActOptimallyFromTheStart) {
               << entry.method << ", " << source.name << ", " << world.mdp->state_name(s);
         }
       }
+    }
+  }
+}
+
+// On-policy values become Q* when the exploring fades out while every pair is still visited.
+TEST(Learners, OnPolicyValuesReachTheOptimalOnesAsExploringFades) {
+  for (const LearnerEntry& entry : learners()) {
+    if (entry.method != "sarsa" && entry.method != "expected-sarsa") continue;
+    for (const World& world : {adventure(), corridor(6), star(), lottery(), slippery(4), game()}) {
+      LearnSettings settings;
+      settings.method = entry.method;
+      settings.start = "each-pair";
+      settings.explore = "epsilon-greedy";
+      settings.until_stable = false;
+      const double bound = world.traits.deterministic ? 1e-6 : 0.02;
+      settings.epsilon = "1:0:200000";
+      const auto fading = learner(settings, world);
+      fading->advance(1'000'000, {});
+      const Distance far = distance(fading->estimates(), *world.mdp, world.discount);
+      EXPECT_LE(far.below, bound) << entry.method << ", " << world.name;
+      EXPECT_LE(far.above, bound) << entry.method << ", " << world.name;
+      settings.epsilon = "1";
+      const auto never = learner(settings, world);
+      never->advance(1'000'000, {});
+      EXPECT_GT(distance(never->estimates(), *world.mdp, world.discount).below, 0.05)
+          << entry.method << ", " << world.name;
     }
   }
 }

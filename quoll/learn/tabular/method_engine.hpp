@@ -243,7 +243,11 @@ class MethodLearner final : public Learner {
         stability_.met(table_.actions(s));
       }
     }
-    const double error = learned.step_size == 1.0 ? value - old : learned.target - old;
+    // Of a whole step: by how much it moved the value, or how far from its target it left it.
+    const double short_of = double{static_cast<Value>(learned.target)} - value;
+    const double error = learned.step_size != 1.0 ? learned.target - old
+                         : value == old           ? short_of
+                                                  : value - old;
     const double scale = std::max(1.0, std::fabs(value));
     if (stability_.visited(step.pair, error, scale, table_.take_moved()) &&
         progress_.halt == LearnProgress::Halt::none) {

@@ -15,27 +15,11 @@
 #include <vector>
 
 #include "quoll/learn/tabular/method_engine.hpp"
+#include "quoll/learn/tabular/moment.hpp"
 #include "quoll/learn/tabular/rules.hpp"
-#include "quoll/learn/tabular/towards.hpp"
 
 namespace quoll {
 namespace {
-
-struct Moment {
-  std::uint64_t pair = 0;
-  double reward = 0.0, carry = 0.0;
-  State state = 0, next = 0;
-  std::uint32_t rounding = 0;
-
-  void persist(Archive& archive) {
-    archive("pair", pair);
-    archive("reward", reward);
-    archive("carry", carry);
-    archive("state", state);
-    archive("next", next);
-    archive("rounding", rounding);
-  }
-};
 
 template <class V>
 class ReverseReplay {
@@ -44,7 +28,7 @@ class ReverseReplay {
   static constexpr bool looks_ahead = false;
 
   ReverseReplay(const TabularSetup& setup, const ValueTable<V>& table)
-      : step_size_(setup.step_size), pairs_(table.pairs()), states_(table.states()) {
+      : step_size_(setup.step_size), begin_(table.begin()) {
     constexpr double least = 64.0, most = 65'536.0;
     const double horizons = setup.discount < 1.0 ? 4.0 / (1.0 - setup.discount) : most;
     block_ = static_cast<std::size_t>(std::clamp(horizons, least, most));
@@ -52,8 +36,7 @@ class ReverseReplay {
 
   // 1, 2
   Change learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {
-    episode_.push_back(
-        {step.pair, step.reward, step.carry, step.state, step.next, draws.rounding()});
+    episode_.push_back(Moment::of(step, draws));
     const Change learned = update(episode_.back(), table);
     if (episode_.size() == block_) end_episode(table);
     return learned;
@@ -65,26 +48,17 @@ class ReverseReplay {
     episode_.clear();
   }
 
-  void persist(Archive& archive) {
-    archive("episode", episode_);
-    for (const Moment& e : episode_) {
-      if (e.pair < pairs_ && e.state < states_ && e.next < states_) continue;
-      episode_.clear();
-      return archive.fail("an episode of another world");
-    }
-  }
+  void persist(Archive& archive) { persist_moments(archive, episode_, begin_, block_); }
 
  private:
   Change update(const Moment& e, ValueTable<V>& table) {
     const double best_next = e.carry == 0.0 ? 0.0 : table.best(e.next);
     const double target = e.reward + e.carry * best_next;
-    const double alpha = step_size_.at(table.visits(e.pair));
-    step_towards(table, e.state, e.pair, target, alpha, step_size_, e.rounding);
-    return {best_next, target, alpha};
+    return {best_next, target, learn_from(e, target, table, step_size_)};
   }
 
   StepSize step_size_;
-  std::uint64_t pairs_, states_;
+  const std::vector<std::uint64_t>& begin_;
   std::size_t block_ = 0;
   std::vector<Moment> episode_;
 };
@@ -92,11 +66,14 @@ class ReverseReplay {
 }  // namespace
 
 const LearnerEntry reverse_replay{
-    "reverse-replay",
-    "",
-    "Q-learning, and each episode once more from its end back to its beginning",
-    true,
-    method_learner<ReverseReplay>,
-    nullptr};
+    .method = "reverse-replay",
+    .rule = "",
+    .summary = "Q-learning, and each episode once more from its end back to its beginning",
+    .sound = true,
+    .make = method_learner<ReverseReplay>,
+    .replay = nullptr,
+    .formula =
+        "Q(s,a) := Q(s,a) + step size * (r + discount * max Q(s',.) - Q(s,a)), and at the "
+        "end of the episode once more for each of its steps, the last first"};
 
 }  // namespace quoll

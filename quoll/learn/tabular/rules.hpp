@@ -15,5 +15,12 @@ extern const LearnerEntry prioritised_sweeping;
 extern const LearnerEntry empirical_model;
 extern const LearnerEntry optimistic_model;
 extern const LearnerEntry posterior_sampling;
+extern const LearnerEntry sarsa;
+extern const LearnerEntry expected_sarsa;
+extern const LearnerEntry double_q;
+extern const LearnerEntry n_step;
+extern const LearnerEntry tree_backup;
+extern const LearnerEntry q_lambda;
+extern const LearnerEntry ucb_q;
 
 }  // namespace quoll
