@@ -98,10 +98,10 @@ std::string json_line(const Moment& now) {
   return json.text() + "\n";
 }
 
-std::string csv_line(std::uint64_t episode, const Moment& now) {
-  const std::string move =
-      now.action ? as_field(now.action_name) + "," + shortest(now.reward) : std::string(",");
-  return fmt::format("{},{},{},{},{:d},{:d}\n", episode, now.t, as_field(state_text(now)), move,
+/// A step as learn --from-data reads it: the state it was taken in stands in front.
+std::string csv_line(std::uint64_t episode, const std::string& before, const Moment& now) {
+  return fmt::format("{},{},{},{},{},{},{:d},{:d}\n", episode, now.t - 1, before,
+                     as_field(now.action_name), shortest(now.reward), as_field(state_text(now)),
                      now.terminated, now.truncated);
 }
 
@@ -142,7 +142,10 @@ class Session {
  private:
   void show() {
     const Moment& now = player_.now();
-    if (options_.record) log_ += csv_line(episode_, now);
+    if (options_.record) {
+      if (now.action) log_ += csv_line(episode_, before_, now);
+      before_ = as_field(state_text(now));
+    }
     std::string text;
     if (options_.json) {
       text = json_line(now);
@@ -167,7 +170,8 @@ class Session {
   Player& player_;
   Chooser& chooser_;
   std::uint64_t episode_ = 0;
-  std::string log_ = "episode,t,state,action,reward,terminated,truncated\n";
+  std::string log_ = "episode,t,state,action,reward,next_state,terminated,truncated\n";
+  std::string before_;  ///< the state shown last, as a field
   bool printed_ = true;
 };
 
