@@ -10,6 +10,7 @@
 #include "quoll/cli/learn_certificate.hpp"
 #include "quoll/cli/learn_explain.hpp"
 #include "quoll/cli/learn_files.hpp"
+#include "quoll/cli/learn_log.hpp"
 #include "quoll/cli/learn_report.hpp"
 #include "quoll/cli/policy_file.hpp"
 #include "quoll/cli/same_world.hpp"
@@ -26,6 +27,7 @@ struct LearnOptions {
   unsigned threads = 0;
   bool explain = false;
   std::string save, resume, save_every, certificate;
+  std::vector<std::string> logs;
 
   std::string resume_file() const { return resume.empty() ? "" : run_file(resume); }
 };
@@ -213,7 +215,44 @@ Exit tell(const Run& run, const LearnOptions& options, const RunSettings& limits
   return written ? done : fail(written.error());
 }
 
+// A log is all the experience there is: what steers or keeps a run has no effect on it.
+Result<void> only_logs(const LearnOptions& options) {
+  const auto refuse = [](std::string flag) {
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    return Error{"--" + flag, 0, 0,
+                 "has no effect with --from-data: the steps are those of the log", ""};
+  };
+  if (options.explain) return refuse("explain");
+  for (const auto& [flag, text] : {std::pair{"save", &options.save},
+                                   {"resume", &options.resume},
+                                   {"save-every", &options.save_every},
+                                   {"certificate", &options.certificate},
+                                   {"config", &options.how.config}}) {
+    if (!text->empty()) return refuse(flag);
+  }
+  constexpr std::string_view taken[] = {"discount", "reward_range", "successors", "confidence"};
+  for (const GivenSettings* given : {&options.how, &options.limits}) {
+    const auto pairs = given->given();
+    if (!pairs) return pairs.error();
+    for (const auto& [key, text] : *pairs) {
+      if (std::find(std::begin(taken), std::end(taken), key) == std::end(taken)) {
+        return refuse(key);
+      }
+    }
+  }
+  return {};
+}
+
 Exit learn(const LearnOptions& options) {
+  if (!options.logs.empty()) {
+    const Result<void> fits = only_logs(options);
+    return fits ? learn_log(options.world, options.output, options.how, options.logs)
+                : fail(fits.error());
+  }
+  if (options.world.name.empty()) {
+    return fail({"learn", 0, 0,
+                 "WORLD expected: a built-in world (see 'quoll list worlds') or a file", ""});
+  }
   const Result<RunSettings> limits = limits_of(options);
   if (!limits) return fail(limits.error());
   const Result<double> pause = save_pause(options);
@@ -255,7 +294,7 @@ void declare_learn(Options& options) {
   Describer how, limits;
   defaults.describe(how);
   defaults.describe_limits(limits);
-  given->world.declare(options);
+  given->world.declare(options, false);
   for (Setting& setting : how.settings()) {
     if (setting.name != "discount") continue;
     setting.low = std::numeric_limits<double>::denorm_min();
@@ -272,7 +311,11 @@ void declare_learn(Options& options) {
                  "write what --until certified:EPS found, for verify");
   options.option("--resume", &given->resume, "FILE",
                  "go on with a saved run, a file or a run folder");
-  given->output.declare(options, "a folder for settings.toml, records.csv and run.quoll");
+  options.option("--from-data", &given->logs, "LOG.csv",
+                 "learn from steps that somebody took, with or without WORLD; may be repeated");
+  given->output.declare(options,
+                        "a folder for settings.toml, records.csv and run.quoll; with --from-data "
+                        "a file .csv or .json for the policy");
   options.run([given] { return learn(*given); });
 }
 
