@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <string>
 
 #include "quoll/base/file.hpp"
@@ -24,11 +23,9 @@ constexpr const char* header = "state,action,reward,next_state,terminated,trunca
 class File {
  public:
   explicit File(const std::string& content) {
-    char name[] = "/tmp/quoll_log_XXXXXX";
-    const int file = mkstemp(name);
-    EXPECT_GE(file, 0);
-    close(file);
-    path_ = name;
+    static int count = 0;
+    path_ = testing::TempDir() + "quoll_log_" + std::to_string(getpid()) + "_" +
+            std::to_string(++count) + ".csv";
     EXPECT_TRUE(write_file(path_, content));
   }
   File(const File&) = delete;
