@@ -9,14 +9,11 @@
 #include "quoll/base/text.hpp"
 #include "quoll/cli/learn_log.hpp"
 #include "quoll/cli/learn_report.hpp"
+#include "quoll/report/explain_text.hpp"
 #include "quoll/report/table.hpp"
 
 namespace quoll::cli {
 namespace {
-
-std::string pair_text(const Mdp& names, State s, Action a) {
-  return "(" + names.state_name(s) + ", " + names.action_name(names.choice_begin(s) + a) + ")";
-}
 
 // What the planner's width leaves of 0 is 0.
 std::string value_text(double value) {
