@@ -123,6 +123,10 @@ class SuiteRun {
                   std::string(row.note), ""};
     before_ += heats_of(row, division);
     if (!logged) return logged;
+    const auto& entrants = race.result.entrants;
+    const bool ran = std::any_of(entrants.begin(), entrants.end(),
+                                 [](const EntrantResult& one) { return !one.heats.empty(); });
+    if (!ran) return {};  // cut short before the first heat was over
     race.result.command = place.command;
     race.picture = race.name + "-" +
                    std::string(race_mode_names[static_cast<std::size_t>(division.mode)]) + ".svg";

@@ -21,6 +21,8 @@ constexpr RaceSettings race_settings[] = {
     {"dyna-q", "start=each-pair", "explore=epsilon-greedy"},
     {"prioritised-sweeping", "start=each-pair", "explore=epsilon-greedy"},
     {"empirical-model", "start=each-pair", "explore=epsilon-greedy"},
+    {"optimistic-model", "start=each-pair", ""},
+    {"posterior-sampling", "start=each-pair", ""},
 };
 /// Of methods that are not listed.
 constexpr RaceSettings others{"", "start=uniform", ""};

@@ -106,6 +106,8 @@ Result<Heat> run_heat(const LearnSettings& settings, const World& world, const R
     const std::uint64_t next = std::min(next_checkpoint(runner.steps()), caps.steps);
     const std::optional<HeatEnd> stop = runner.advance_to(next);
     if (stop == HeatEnd::interrupted) return Heat{settings.seed};
+    const bool over = stop || runner.steps() >= caps.steps;
+    if (!over && runner.steps() < referee.fewest_steps(mode)) continue;
     double reading = 0.0;
     std::vector<Action> policy = runner.policy(reading);
     const bool same = !before.empty() && policy == before;
@@ -118,7 +120,7 @@ Result<Heat> run_heat(const LearnSettings& settings, const World& world, const R
       break;
     }
     first = good ? std::optional(now) : std::nullopt;
-    if (stop || now.steps >= caps.steps) {
+    if (over) {
       now.end = stop.value_or(HeatEnd::steps);
       now.bytes = runner.bytes();
       return now;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "quoll/solve/evaluate.hpp"
@@ -42,10 +43,36 @@ Result<Referee> Referee::make(const World& world, double discount, double share)
     const double value = referee.best_[s];
     const bool judged = !mdp.terminal(s) && std::isfinite(value);
     referee.least_.push_back(judged ? enough(value) : -HUGE_VAL);
+    referee.fewest_for_all_ += judged;
   }
   referee.best_start_ = referee.start_value(referee.best_);
   referee.least_start_ = enough(referee.best_start_);
+  const Result<std::uint64_t> fewest = referee.fewest_for_start();
+  if (!fewest) return fewest.error();
+  referee.fewest_for_start_ = *fewest;
   return referee;
+}
+
+// With an action known in n states the start is worth at most V* there and the least elsewhere: the
+// n states where that matters most are not enough while too much is lost in the others.
+Result<std::uint64_t> Referee::fewest_for_start() const {
+  const std::vector<Action> nothing(mdp_->states(), no_action);
+  const Result<Evaluation> least = evaluate(*mdp_, nothing, discount_);
+  if (!least) return least.error();
+  std::vector<double> losses;
+  double lost = 0.0;
+  for (std::size_t i = 0; i < mdp_->start().size(); ++i) {
+    const State s = mdp_->start()[i];
+    if (mdp_->terminal(s) || !std::isfinite(best_[s])) continue;
+    losses.push_back(mdp_->start_probability(i) * (best_[s] - std::max(least->lower[s], -1e300)));
+    lost += losses.back();
+  }
+  std::sort(losses.begin(), losses.end(), std::greater<>());
+  // Rounding in the sums is forgiven by one part in a million.
+  const double allowed = (best_start_ - least_start_) * (1 + 1e-6) + 1e-6 * slack_;
+  std::uint64_t count = 0;
+  while (count < losses.size() && lost > allowed) lost -= losses[count++];
+  return count;
 }
 
 double Referee::start_value(std::span<const double> values) const {

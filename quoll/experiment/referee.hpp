@@ -24,6 +24,12 @@ class Referee {
   /// good ones an evaluation. Safe to call from several threads.
   bool good(std::span<const Action> policy, RaceMode mode) const;
 
+  /// No learner can be good after fewer steps: each shows it the actions of one state, and of the
+  /// others it knows nothing.
+  std::uint64_t fewest_steps(RaceMode mode) const {
+    return mode == RaceMode::all ? fewest_for_all_ : fewest_for_start_;
+  }
+
   double discount() const { return discount_; }
   const std::vector<double>& values() const { return best_; }  ///< V* per state
 
@@ -31,6 +37,7 @@ class Referee {
   Referee(std::shared_ptr<const Mdp> mdp, double discount, double share)
       : mdp_(std::move(mdp)), discount_(discount), share_(share) {}
   double start_value(std::span<const double> values) const;
+  Result<std::uint64_t> fewest_for_start() const;
   bool certainly_bad(std::span<const Action> policy, RaceMode mode) const;
 
   std::shared_ptr<const Mdp> mdp_;
@@ -39,6 +46,7 @@ class Referee {
   std::vector<double> least_;  // per state: what is still good enough; -infinity = anything
   double best_start_ = 0.0, least_start_ = 0.0;
   double slack_ = 0.0;
+  std::uint64_t fewest_for_all_ = 0, fewest_for_start_ = 0;
 };
 
 }  // namespace quoll

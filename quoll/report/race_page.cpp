@@ -192,6 +192,12 @@ std::string race_page(const RacePage& page) {
       "world's declared traits, and nothing else. `lecture`: uniform actions, random starts, step "
       "size 1 without chance and 1/N^0.6 with it; in races from all states the better of two "
       "lengths of its episodes.\n\n";
+  for (const PageRace& race : page.races) {
+    if (race.result.interrupted) {
+      text += fmt::format("Interrupted in {}: what was run until then.\n\n", race.name);
+      break;
+    }
+  }
   for (const RaceMode mode : {RaceMode::all, RaceMode::start}) {
     Races races;
     for (const PageRace& race : page.races) {

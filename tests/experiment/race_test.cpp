@@ -94,6 +94,28 @@ TEST(Race, TheRefereeCountsAnUnknownActionAsTheLeast) {
   EXPECT_FALSE(referee_of(from_b).good(only_b, RaceMode::all));
 }
 
+TEST(Race, TheRefereeNeedNotLookBeforeEnoughIsKnown) {
+  EXPECT_EQ(referee_of(two_steps()).fewest_steps(RaceMode::all), 2u);
+  EXPECT_EQ(referee_of(two_steps()).fewest_steps(RaceMode::start), 1u);
+  // Doors worth 1 to begin at, equally likely. Each of four is a quarter of the value; each of two
+  // hundred half a percent, so that two may stay unknown.
+  for (const auto& [doors, fewest] : {std::pair(4, 4u), std::pair(200, 198u)}) {
+    MdpBuilder builder(0.9);
+    for (int i = 0; i < doors; ++i) {
+      builder.move("d" + std::to_string(i), "open", "END", 1.0);
+      builder.start("d" + std::to_string(i));
+    }
+    const Referee referee = referee_of(to_world("doors", *builder.build()));
+    EXPECT_EQ(referee.fewest_steps(RaceMode::start), fewest);
+    EXPECT_EQ(referee.fewest_steps(RaceMode::all), static_cast<std::uint64_t>(doors));
+    std::vector<Action> policy(static_cast<std::size_t>(doors) + 1, no_action);
+    for (std::uint64_t i = 0; i < fewest; ++i) policy[i] = 0;
+    EXPECT_TRUE(referee.good(policy, RaceMode::start));
+    policy[0] = no_action;
+    EXPECT_FALSE(referee.good(policy, RaceMode::start));
+  }
+}
+
 TEST(Race, TheRefereeNeedsAModelAndOnePlayer) {
   const Result<Referee> none = Referee::make(without_model(adventure()), 0.8);
   ASSERT_FALSE(none);
