@@ -17,6 +17,17 @@ struct RaceSettings {
 };
 constexpr RaceSettings race_settings[] = {
     {"q-learning", "start=each-pair", "explore=epsilon-greedy"},
+    // What on-policy methods learn is the optimal policy only as chance fades.
+    {"sarsa", "start=uniform:explore=epsilon-greedy:epsilon=0.5:0.01:200000",
+     "explore=epsilon-greedy:epsilon=0.5:0.01:200000"},
+    {"expected-sarsa", "start=uniform:explore=epsilon-greedy:epsilon=0.5:0.01:200000",
+     "explore=epsilon-greedy:epsilon=0.5:0.01:200000"},
+    {"double-q", "start=each-pair", "explore=epsilon-greedy"},
+    {"n-step", "start=uniform:explore=epsilon-greedy:epsilon=0.5:0.01:200000",
+     "explore=epsilon-greedy:epsilon=0.5:0.01:200000"},
+    {"tree-backup", "start=uniform", "explore=epsilon-greedy"},
+    // Actions that are not greedy cut the trace.
+    {"q-lambda", "start=uniform:explore=epsilon-greedy", "explore=epsilon-greedy"},
     {"reverse-replay", "start=uniform", "explore=epsilon-greedy"},
     {"dyna-q", "start=each-pair", "explore=epsilon-greedy"},
     {"prioritised-sweeping", "start=each-pair", "explore=epsilon-greedy"},

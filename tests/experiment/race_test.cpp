@@ -105,11 +105,14 @@ TEST(Race, TheRefereeNeedNotLookBeforeEnoughIsKnown) {
       builder.move("d" + std::to_string(i), "open", "END", 1.0);
       builder.start("d" + std::to_string(i));
     }
-    const Referee referee = referee_of(to_world("doors", *builder.build()));
+    const World world = to_world("doors", *builder.build());
+    const Referee referee = referee_of(world);
     EXPECT_EQ(referee.fewest_steps(RaceMode::start), fewest);
     EXPECT_EQ(referee.fewest_steps(RaceMode::all), static_cast<std::uint64_t>(doors));
     std::vector<Action> policy(static_cast<std::size_t>(doors) + 1, no_action);
-    for (std::uint64_t i = 0; i < fewest; ++i) policy[i] = 0;
+    for (std::uint64_t i = 0; i < fewest; ++i) {
+      policy[*world.mdp->find_state("d" + std::to_string(i))] = 0;
+    }
     EXPECT_TRUE(referee.good(policy, RaceMode::start));
     policy[0] = no_action;
     EXPECT_FALSE(referee.good(policy, RaceMode::start));
