@@ -15,6 +15,7 @@
 #include "quoll/cli/policy_file.hpp"
 #include "quoll/cli/same_world.hpp"
 #include "quoll/cli/verbs.hpp"
+#include "quoll/learn/choice.hpp"
 
 namespace quoll::cli {
 namespace {
@@ -135,7 +136,22 @@ Result<RunSettings> limits_of(const LearnOptions& options) {
   return limits;
 }
 
-Result<Run> open_run(const LearnOptions& options, const RunSettings& limits) {
+// Whether nothing was said about how to learn: then the world decides.
+Result<bool> leaves_it_open(const LearnOptions& options) {
+  constexpr std::string_view no_method[] = {
+      "discount",     "seed",    "seeds",      "force",      "precision",          "episode_steps",
+      "reward_range", "certify", "successors", "confidence", "evaluation_episodes"};
+  const auto given = options.how.given();
+  if (!given) return given.error();
+  return options.how.config.empty() &&
+         std::all_of(given->begin(), given->end(), [&](const auto& one) {
+           return std::find(std::begin(no_method), std::end(no_method), one.first) !=
+                  std::end(no_method);
+         });
+}
+
+Result<Run> open_run(const LearnOptions& options, const RunSettings& limits,
+                     std::optional<MethodChoice>& choice) {
   const bool watch = !limits.has_limit() || limits.until == "stable";
   const Result<void> fits = options.how.check_discount();
   if (!fits) return fits.error();
@@ -156,6 +172,13 @@ Result<Run> open_run(const LearnOptions& options, const RunSettings& limits) {
                  "this program's random numbers",
                  ""};
   }
+  const Result<bool> open = leaves_it_open(options);
+  if (!open) return open.error();
+  if (*open) settings.learn.method = "auto";
+  if (settings.learn.method == "auto" && world->traits.states > 0) {
+    choice = settle_method(*world, settings.learn);
+  }
+  if (settings.learn.method == "auto") settings.learn.method = "q-learning";  // refused below
   const Result<std::vector<double>> rewards =
       initial_rewards(settings.learn.initial_rewards, *world);
   if (!rewards) return rewards.error();
@@ -202,10 +225,10 @@ Exit exit_status(const Run& run, const RunSettings& limits) {
 
 // Prints the result.
 Exit tell(const Run& run, const LearnOptions& options, const RunSettings& limits, Learner* twin,
-          const ComingUpdates* coming) {
+          const ComingUpdates* coming, const MethodChoice* choice) {
   const Result<StandardBeside> beside = standard_beside(run, twin);
   if (!beside) return fail(beside.error());
-  const LearnStory story{options.output.all, limits.until == "stable", coming, &*beside};
+  const LearnStory story{options.output.all, limits.until == "stable", coming, &*beside, choice};
   const RunResult result = run.result(true);
   const std::string text = options.output.json ? learn_json(run, result, story)
                                                : learn_text(run, result, stdout_style(), story);
@@ -257,7 +280,8 @@ Exit learn(const LearnOptions& options) {
   if (!limits) return fail(limits.error());
   const Result<double> pause = save_pause(options);
   if (!pause) return fail(pause.error());
-  Result<Run> run = open_run(options, *limits);
+  std::optional<MethodChoice> choice;
+  Result<Run> run = open_run(options, *limits, choice);
   if (!run) return fail(run.error());
   run->set_threads(options.threads);
   if (!options.certificate.empty()) {
@@ -279,7 +303,8 @@ Exit learn(const LearnOptions& options) {
   catch_interrupts();
   const Result<void> saved = advance(*run, options, *limits, *pause, files);
   const Result<void> written = files.write_folder(*run);
-  const Exit told = tell(*run, options, *limits, twin->get(), coming ? &*coming : nullptr);
+  const Exit told = tell(*run, options, *limits, twin->get(), coming ? &*coming : nullptr,
+                         choice ? &*choice : nullptr);
   if (!saved) return fail(saved.error());
   if (!written) return fail(written.error());
   if (told != done) return told;

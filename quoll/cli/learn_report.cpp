@@ -285,6 +285,9 @@ std::string learn_text(const Run& run, const RunResult& result, const TerminalSt
                        const LearnStory& story) {
   const SeedResult& first = result.seeds.front();
   std::string text = heading(run);
+  if (story.choice != nullptr) {
+    text += "Chosen: " + story.choice->options() + "; " + story.choice->reason + ".\n";
+  }
   if (result.seeds.size() > 1) {
     text += "\n" + printed_text(run, story) + seeds_table(run, result);
     text += least_visited_text(run, result, story);
