@@ -46,6 +46,8 @@ class RelativeValues {
     return keep_gaining(members) ? Gain::certain : Gain::undecided;
   }
 
+  double value(State s) const { return value_[s]; }
+
   /// After Gain::certain: the choices of pi in the states found.
   std::vector<bool> gaining_choices() const {
     std::vector<bool> chosen(mdp_.choices(), false);
@@ -183,6 +185,16 @@ std::vector<Gain> component_gains(const Mdp& mdp, const EndComponents& parts) {
     return true;
   });
   return gains;
+}
+
+std::vector<double> component_heights(const Mdp& mdp, const EndComponents& parts) {
+  std::vector<double> height(mdp.states(), 0.0);
+  for_each_gain(mdp, parts,
+                [&](std::span<const State> members, Gain, const RelativeValues& values) {
+                  for (const State s : members) height[s] = values.value(s);
+                  return true;
+                });
+  return height;
 }
 
 std::vector<State> gaining_class(const Mdp& mdp, const EndComponents& parts) {

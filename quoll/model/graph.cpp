@@ -103,10 +103,12 @@ std::vector<bool> can_end(const Mdp& mdp) {
   return can;
 }
 
-std::vector<std::uint32_t> strongly_connected(const Mdp& mdp) {
+std::vector<std::uint32_t> strongly_connected(const Mdp& mdp, std::uint64_t most) {
   std::vector<std::uint32_t> component(mdp.states(), no_component);
   Tarjan search(mdp, [](std::uint64_t) { return true; }, component);
-  for (State s = 0; s < mdp.states(); ++s) search.visit(s);
+  search.stop_above(most);
+  for (State s = 0; s < mdp.states() && !search.stopped(); ++s) search.visit(s);
+  if (search.stopped()) component.clear();
   return component;
 }
 

@@ -27,7 +27,8 @@ std::vector<std::uint32_t> moves_from(const Mdp& mdp, std::span<const State> fro
 
 /// Strongly connected component of each state; ends are not left. Numbered in reverse topological
 /// order: a move never leads to a component of higher number. Tarjan 1972, without recursion.
-std::vector<std::uint32_t> strongly_connected(const Mdp& mdp);
+/// Empty if a component has more than `most` states, which is found out early if it is large.
+std::vector<std::uint32_t> strongly_connected(const Mdp& mdp, std::uint64_t most = max_states);
 
 /// States that can come again after they were left, ascending; empty = the model is acyclic.
 std::vector<State> returning_states(const Mdp& mdp);
@@ -52,6 +53,9 @@ enum class Gain : std::uint8_t { none, certain, undecided };
 /// iteration, at most 10,000 sweeps and about 1e9 outcomes per component; components without a
 /// positive reward cost nothing.
 std::vector<Gain> component_gains(const Mdp& mdp, const EndComponents& parts);
+/// Per state of a component without a gain a number h such that r + sum of p (h(s') - h(s)) <= 0 to
+/// within rounding for the choices inside; 0 elsewhere. Cost: as component_gains.
+std::vector<double> component_heights(const Mdp& mdp, const EndComponents& parts);
 /// States one policy stays in for ever with a certain gain, ascending, going from each to each; of
 /// the first component that has one. Empty = none certain. Cost: as component_gains.
 std::vector<State> gaining_class(const Mdp& mdp, const EndComponents& parts);

@@ -35,19 +35,24 @@ class Tarjan {
         index_(mdp.states(), 0),
         low_(mdp.states(), 0) {}
 
+  /// Gives up as soon as a component is known to have more states than that.
+  void stop_above(std::uint64_t states) { most_ = states; }
+  bool stopped() const { return stopped_; }
+
   /// Finishes all components that can be reached from `root`.
   void visit(State root) {
     if (index_[root] != 0) return;
     enter(root);
-    while (!frames_.empty()) {
+    while (!frames_.empty() && !stopped_) {
       Frame& frame = frames_.back();
       State next = 0;
       if (!next_edge(frame, next)) {
         leave(frame.state);
       } else if (index_[next] == 0) {
         enter(next);  // step 1
-      } else if (component_[next] == no_component) {
-        low_[frame.state] = std::min(low_[frame.state], index_[next]);  // step 2
+      } else if (component_[next] == no_component && index_[next] < low_[frame.state]) {
+        low_[frame.state] = index_[next];  // step 2
+        stopped_ = frames_.size() > most_ && path_since(index_[next]) > most_;
       }
     }
   }
@@ -85,6 +90,16 @@ class Tarjan {
     return false;
   }
 
+  // The number of states on the path to the newest that were met at or after that index: if one
+  // of index `first` follows the newest, they form one component.
+  std::uint64_t path_since(std::uint32_t first) const {
+    const auto earlier = [this](const Frame& frame, std::uint32_t index) {
+      return index_[frame.state] < index;
+    };
+    const auto at = std::lower_bound(frames_.begin(), frames_.end(), first, earlier);
+    return static_cast<std::uint64_t>(frames_.end() - at);
+  }
+
   void leave(State s) {
     frames_.pop_back();
     if (!frames_.empty()) {
@@ -93,12 +108,15 @@ class Tarjan {
     }
     if (low_[s] != index_[s]) return;
     State member = s;
+    std::uint64_t size = 0;
     do {  // step 3
       member = open_.back();
       open_.pop_back();
       component_[member] = count_;
+      ++size;
     } while (member != s);
     ++count_;
+    stopped_ = stopped_ || size > most_;
   }
 
   const Mdp& mdp_;
@@ -109,6 +127,8 @@ class Tarjan {
   std::vector<Frame> frames_;
   std::uint32_t numbered_ = 0;
   std::uint32_t count_ = 0;
+  std::uint64_t most_ = max_states;
+  bool stopped_ = false;
 };
 
 }  // namespace quoll

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "quoll/solve/components.hpp"
 #include "quoll/solve/policy_rows.hpp"
 #include "quoll/solve/rounding.hpp"
 #include "quoll/solve/solver.hpp"
@@ -71,5 +72,6 @@ void modified_policy_iteration(Discounted& run);
 void gauss_seidel(Discounted& run);
 /// False, and nothing done: every state is so near to an end that there is no wave to follow.
 bool wavefront(Discounted& run, std::size_t least_bands);
+void topological(Discounted& run, const Components& parts);
 
 }  // namespace quoll

@@ -24,6 +24,7 @@ class FreeParts {
   void balance(const std::vector<double>& value, double size);
 
   std::uint32_t count() const { return parts_.count; }
+  const EndComponents& parts() const { return parts_; }
   /// Whether a choice earns nothing but height, and stays in its part.
   bool inside(std::uint64_t choice) const { return parts_.inside[choice]; }
   /// The part of a state, or no_component.

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "quoll/solve/ending.hpp"
 #include "quoll/solve/solver.hpp"
 
 namespace quoll {
@@ -15,6 +16,9 @@ std::unique_ptr<Solver> make_value_iteration();
 std::unique_ptr<Solver> make_gauss_seidel();
 std::unique_ptr<Solver> make_modified_policy_iteration();
 std::unique_ptr<Solver> make_wavefront();
+std::unique_ptr<Solver> make_topological();
+std::unique_ptr<Solver> make_interval_iteration();
+std::unique_ptr<Solver> make_optimistic_value_iteration();
 std::unique_ptr<Solver> make_policy_iteration();
 std::unique_ptr<Solver> make_label_setting();
 std::unique_ptr<Solver> make_backward_induction();
@@ -64,14 +68,22 @@ bool may_continue(const SolveSettings& settings, const Solution& solution, doubl
 void improve_to_optimum(const Mdp& mdp, const SolveSettings& settings, double discount,
                         const std::vector<std::uint8_t>& live, Solution& solution);
 
+/// How a stochastic model is solved at discount 1: by policy iteration on all states or on one
+/// strongly connected component after the other, or by the methods of interval_iteration.cpp.
+enum class TotalMethod : std::uint8_t { whole, by_components, intervals, optimistic };
+
 /// Solves at discount 1, any model. Errors as Solver::solve.
 Result<Solution> solve_undiscounted(const Mdp& mdp, const SolveSettings& settings,
-                                    std::string_view method);
+                                    std::string_view method, TotalMethod how = TotalMethod::whole);
 /// The same without asking first whether values are defined: states that cannot end with
 /// probability 1 get -infinity, bounds that cannot be proved are infinite. Those in `unknown` must
 /// not follow from others; they are left unknown.
 Solution solve_ending(const Mdp& mdp, const SolveSettings& settings, std::string_view method,
-                      const std::vector<bool>& unknown = {});
+                      const std::vector<bool>& unknown = {}, TotalMethod how = TotalMethod::whole);
+
+/// Interval iteration and optimistic value iteration for a stochastic model at discount 1.
+Solution iterate_intervals(const Mdp& mdp, const SolveSettings& settings, Ending ending);
+Solution iterate_optimistically(const Mdp& mdp, const SolveSettings& settings, Ending ending);
 
 /// Per state 1 if it is no end and some policy ends from it with probability 1. At discounts below
 /// 1 every non-terminal state is live.

@@ -48,6 +48,10 @@ class PolicyRows {
     return reward_[s] + discount * mean(value, s);
   }
   bool empty(State s) const { return length_[s] == 0; }
+  /// What can follow s under the policy.
+  std::span<const State> successors(State s) const {
+    return {next_.data() + place_[s], length_[s]};
+  }
 
   /// to <- r_pi + discount * P_pi from, and the least and greatest difference to - from, ends not
   /// counted. The bits do not depend on `threads`.

@@ -6,6 +6,7 @@
 
 #include "quoll/base/text.hpp"
 #include "quoll/model/graph.hpp"
+#include "quoll/solve/components.hpp"
 #include "quoll/solve/discounted.hpp"
 #include "quoll/solve/methods.hpp"
 
@@ -13,7 +14,7 @@ namespace quoll {
 
 namespace {
 
-constexpr std::array<SolverEntry, 8> registry{{
+constexpr std::array<SolverEntry, 11> registry{{
     {"value-iteration", "Bellman sweeps with MacQueen's bounds and action elimination",
      make_value_iteration},
     {"gauss-seidel", "sweeps in place, to and fro, from a lower bound; discounts below 1",
@@ -22,8 +23,14 @@ constexpr std::array<SolverEntry, 8> registry{{
      make_modified_policy_iteration, true},
     {"wavefront", "a window of sweeps that follows the news from the ends; discounts below 1",
      make_wavefront, true},
+    {"topological", "one strongly connected component after the other; any model",
+     make_topological},
     {"policy-iteration", "Howard's method; any model, also without discounting",
      make_policy_iteration},
+    {"interval-iteration", "bounds from both sides, end components as one state; discount 1 only",
+     make_interval_iteration, false, true},
+    {"optimistic-value-iteration", "from below, then a guess above is proved; discount 1 only",
+     make_optimistic_value_iteration, false, true},
     {"label-setting", "shortest paths; exact answers for deterministic models", make_label_setting},
     {"backward-induction", "from the ends on; models in which no state comes again, games of two",
      make_backward_induction},
@@ -43,6 +50,7 @@ class ByStructure : public Solver {
     }
     if (mdp.alternating()) return make_backward_induction()->solve(mdp, settings);
     if (mdp.deterministic()) return make_label_setting()->solve(mdp, settings);
+    if (Components::many(mdp)) return make_topological()->solve(mdp, settings);
     if (*discount == 1.0) return make_policy_iteration()->solve(mdp, settings);
     return solve_discounted(mdp, settings, *discount);
   }

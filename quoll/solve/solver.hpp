@@ -52,6 +52,7 @@ struct SolverEntry {
   std::string_view summary;  ///< one sentence
   std::unique_ptr<Solver> (*make)();
   bool needs_discount = false;  ///< for discounts below 1 only
+  bool needs_total = false;     ///< for discount 1 only
 };
 
 /// All solvers, in the order they are shown.
@@ -59,8 +60,9 @@ std::span<const SolverEntry> solvers();
 
 /// Solves with the solver of that name. "auto" takes one by the model's structure: two players in
 /// turn -> backward-induction, or game-iteration where states come again below discount 1;
-/// deterministic -> label-setting, no discounting -> policy-iteration, else wavefront if the ends
-/// are far from some state, or modified-policy-iteration. Error: unknown name, and those of
+/// deterministic -> label-setting, many small strongly connected components -> topological, no
+/// discounting -> policy-iteration, else wavefront if the ends are far from some state, or
+/// modified-policy-iteration. Error: unknown name, and those of
 /// Solver::solve. Solution::method says which one ran.
 Result<Solution> solve(const Mdp& mdp, const SolveSettings& settings = {},
                        std::string_view method = "auto");

@@ -147,6 +147,41 @@ struct InPlace {
   }
 };
 
+/// Single states in place, each taken until an action leads away from it (leave): the best action
+/// becomes the policy, or the policy is evaluated.
+template <class Rows>
+class InPlacePolicy {
+ public:
+  InPlacePolicy(const Mdp& mdp, const Rows& rows, double discount, std::vector<double>& value,
+                std::vector<Action>& policy)
+      : mdp_(mdp), rows_(rows), discount_(discount), value_(value.data()), policy_(policy.data()) {}
+
+  /// Returns the change of the state's value.
+  double improve(State s) const {
+    const std::uint64_t first = mdp_.choice_begin(s);
+    double best = -infinity;
+    for (std::uint64_t c = first; c < mdp_.choice_end(s); ++c) {
+      const double q = rows_.leave(discount_, value_, c, s);
+      if (!(q > best)) continue;
+      best = q;
+      policy_[s] = static_cast<Action>(c - first);
+    }
+    const double change = std::fabs(best - value_[s]);
+    value_[s] = best;
+    return change;
+  }
+  void evaluate(State s) const {
+    value_[s] = rows_.leave(discount_, value_, mdp_.choice_begin(s) + policy_[s], s);
+  }
+
+ private:
+  const Mdp& mdp_;
+  const Rows& rows_;
+  double discount_;
+  double* value_;
+  Action* policy_;
+};
+
 /// Into another vector, with the least and greatest difference and the greedy policy.
 struct Residual {
   const double* old_value;

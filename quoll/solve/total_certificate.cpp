@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
-#include "quoll/model/graph.hpp"
-#include "quoll/solve/ending.hpp"
 #include "quoll/solve/free_parts.hpp"
-#include "quoll/solve/growth.hpp"
-#include "quoll/solve/induced.hpp"
+#include "quoll/solve/inductive.hpp"
+#include "quoll/solve/moves_left.hpp"
 #include "quoll/solve/rounding.hpp"
 #include "quoll/solve/sweep.hpp"
-#include "quoll/solve/wavefront.hpp"
 
 namespace quoll {
 
@@ -21,10 +19,14 @@ class Prover {
  public:
   Prover(const Mdp& mdp, const std::vector<std::uint8_t>& live, const std::vector<Action>& policy,
          const std::vector<double>& value)
-      : mdp_(mdp), live_(live), policy_(policy), value_(value), free_(mdp, live) {
+      : mdp_(mdp),
+        live_(live),
+        policy_(policy),
+        value_(value),
+        free_(mdp, live),
+        inductive_(mdp, live, free_) {
     const auto [low, high] = mdp.reward_bounds();
-    reward_size_ = std::max(std::fabs(low), std::fabs(high));
-    size_ = reward_size_;
+    size_ = std::max(std::fabs(low), std::fabs(high));
     for (State s = 0; s < mdp.states(); ++s) {
       if (live[s] != 0) size_ = std::max(size_, std::fabs(value[s]));
     }
@@ -34,8 +36,8 @@ class Prover {
   }
 
   TotalCertificate run() {
-    TotalCertificate out{constant(-infinity), constant(infinity)};
-    const bool ends = policy_ends();
+    TotalCertificate out{inductive_.constant(-infinity), inductive_.constant(infinity)};
+    const bool ends = inductive_.ends(policy_);
     bool lower = !ends;  // nothing to prove about a policy that may not end
     bool upper = false;
     for (const double nearness : {1e-9, 1e-12, 1e-14}) {
@@ -58,33 +60,7 @@ class Prover {
   }
 
  private:
-  std::vector<double> constant(double unknown) const {
-    std::vector<double> bound(mdp_.states(), 0.0);
-    for (State s = 0; s < mdp_.states(); ++s) {
-      if (!mdp_.terminal(s)) bound[s] = live_[s] != 0 ? unknown : -infinity;
-    }
-    return bound;
-  }
-
   double least_excess() const { return std::max(4.0 * residual(), 32.0 * half_ulp * size_); }
-
-  bool policy_ends() const {
-    std::vector<bool> outside(mdp_.states());
-    for (State s = 0; s < mdp_.states(); ++s) outside[s] = live_[s] == 0 && !mdp_.terminal(s);
-    std::vector<double> chosen = as_probabilities(mdp_, policy_);
-    const Result<Mdp> chain = induced_model(mdp_, chosen, std::nullopt, outside);
-    if (!chain) return false;
-    const std::vector<bool> may_end = can_end(*chain);
-    for (State s = 0; s < mdp_.states(); ++s) {
-      if (live_[s] == 0) continue;
-      if (!may_end[s]) return false;
-      const std::uint64_t c = mdp_.choice_begin(s) + policy_[s];
-      for (std::uint64_t o = mdp_.outcome_begin(c); o < mdp_.outcome_end(c); ++o) {
-        if (outside[mdp_.next(o)]) return false;
-      }
-    }
-    return true;
-  }
 
   // w <- 1 + max over nearly optimal choices of P w, to within half a move; false if it grows
   // without bound. Nearness -infinity: of the policy's choices alone.
@@ -97,61 +73,10 @@ class Prover {
         near[c] = (kept || c == mdp_.choice_begin(s) + policy_[s]) && !free_.inside(c);
       }
     }
-    moves_.assign(mdp_.states(), 0.0);
-    const auto raise = [&](State s) {
-      double most = moves_[s];
-      for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
-        if (near[c]) most = std::max(most, 1.0 + mean(moves_, c));
-      }
-      const double change = most - moves_[s];
-      moves_[s] = most;
-      return change;
-    };
-    if (free_.count() == 0 && !count_along_wave(raise)) return false;
-    return count_to_and_fro(raise);
-  }
-
-  static constexpr double settled = 0.25;  // moves a sweep may still add
-  static constexpr double most_moves = 1e9;
-
-  // Nearly all of the way; bands it has left behind may still rise a little.
-  template <class Raise>
-  bool count_along_wave(const Raise& raise) {
-    constexpr std::uint64_t most_updates_of_each = 200'000;
-    for (State s = 0; s < mdp_.states(); ++s) moves_[s] = live_[s] != 0 ? 0.0 : -infinity;
-    std::uint64_t updates = 0;
-    Wavefront wave(mdp_, moves_);
-    for (State s = 0; s < mdp_.states(); ++s) moves_[s] = 0.0;
-    const auto count = [&](std::uint64_t updated, double change) {
-      updates += updated;
-      return change < most_moves && updates / mdp_.states() < most_updates_of_each;
-    };
-    return wave.follow(settled, count, raise, raise);
-  }
-
-  template <class Raise>
-  bool count_to_and_fro(const Raise& raise) {
-    constexpr unsigned most_sweeps = 200'000;
-    bool backward = true;
-    double change = 1.0;
-    for (unsigned k = 0; k < most_sweeps && change > settled && change < most_moves; ++k) {
-      change = 0.0;
-      for (State i = 0; i < mdp_.states(); ++i) {
-        const State s = backward ? static_cast<State>(mdp_.states()) - 1 - i : i;
-        if (live_[s] != 0) change = std::max(change, raise(s));
-      }
-      free_.share(moves_);
-      backward = !backward;
-    }
-    return change <= settled;
-  }
-
-  double mean(const std::vector<double>& of, std::uint64_t c) const {
-    double sum = 0.0;
-    for (std::uint64_t o = mdp_.outcome_begin(c); o < mdp_.outcome_end(c); ++o) {
-      sum += mdp_.probability(o) * of[mdp_.next(o)];
-    }
-    return sum;
+    std::optional<std::vector<double>> moves = moves_left(mdp_, live_, near, free_.parts());
+    if (!moves) return false;
+    moves_ = *std::move(moves);
+    return true;
   }
 
   // How far V is from V_pi, per move.
@@ -166,17 +91,6 @@ class Prover {
     return largest;
   }
 
-  // An upper bound on sign * (r + sum of p (B(s') - B(s))).
-  double gain_up(const std::vector<double>& bound, double sign, State s, std::uint64_t c) const {
-    const double reward = sign * mdp_.reward(c);
-    const double outcomes = static_cast<double>(mdp_.outcome_end(c) - mdp_.outcome_begin(c));
-    double sum = reward;
-    if (!free_.inside(c)) {
-      sum = add_up(reward, (outcomes + 3.0) * 2.0 * half_ulp * reward_size_);
-    }
-    return growth_up(mdp_, bound, sign, s, c, sum);
-  }
-
   // T_pi L >= L for L = V - excess * w.
   bool prove_lower(double excess, std::vector<double>& proved) const {
     std::vector<double> bound = proved;
@@ -184,10 +98,7 @@ class Prover {
       if (live_[s] != 0) bound[s] = value_[s] - excess * moves_[s];
     }
     free_.level_down(bound);
-    for (State s = 0; s < mdp_.states(); ++s) {
-      if (live_[s] == 0) continue;
-      if (gain_up(bound, -1.0, s, mdp_.choice_begin(s) + policy_[s]) > 0.0) return false;
-    }
+    if (!inductive_.holds_below(bound, policy_)) return false;
     proved = std::move(bound);
     return true;
   }
@@ -199,25 +110,9 @@ class Prover {
       if (live_[s] != 0) bound[s] = value_[s] + excess * moves_[s];
     }
     free_.level_up(bound);
-    constexpr unsigned most_sweeps = 40;
-    for (unsigned k = 0; k < most_sweeps; ++k) {
-      bool raised = false;
-      for (State s = 0; s < mdp_.states(); ++s) {
-        if (live_[s] == 0) continue;
-        for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
-          const double gain = gain_up(bound, 1.0, s, c);
-          if (!(gain > 0.0)) continue;
-          bound[s] = next_up(bound[s] + 2.0 * gain);
-          raised = true;
-        }
-      }
-      if (!raised) {
-        proved = std::move(bound);
-        return true;
-      }
-      free_.level_up(bound);
-    }
-    return false;
+    if (!inductive_.raise_above(bound)) return false;
+    proved = std::move(bound);
+    return true;
   }
 
   const Mdp& mdp_;
@@ -226,7 +121,7 @@ class Prover {
   std::vector<double> value_;
   std::vector<double> moves_;  // w
   FreeParts free_;
-  double reward_size_ = 0.0;
+  Inductive inductive_;
   double size_ = 0.0;
 };
 

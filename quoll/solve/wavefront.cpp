@@ -68,25 +68,11 @@ void Wavefront::guess(double per_move) {
 // Steps 2 and 3.
 bool Wavefront::iterate(double discount, double aim, std::vector<Action>& policy,
                         const Count& count) {
-  double* const value = value_.data();
   return with_rows(mdp_, [&](const auto& rows) {
-    const auto improve = [&](State s) {
-      const std::uint64_t first = mdp_.choice_begin(s);
-      double best = -infinity;
-      for (std::uint64_t c = first; c < mdp_.choice_end(s); ++c) {
-        const double q = rows.leave(discount, value, c, s);
-        if (!(q > best)) continue;
-        best = q;
-        policy[s] = static_cast<Action>(c - first);
-      }
-      const double change = std::fabs(best - value[s]);
-      value[s] = best;
-      return change;
-    };
-    const auto evaluate = [&](State s) {
-      value[s] = rows.leave(discount, value, mdp_.choice_begin(s) + policy[s], s);
-    };
-    return follow(aim, count, improve, evaluate);
+    const InPlacePolicy in_place(mdp_, rows, discount, value_, policy);
+    return follow(
+        aim, count, [&](State s) { return in_place.improve(s); },
+        [&](State s) { in_place.evaluate(s); });
   });
 }
 

@@ -20,6 +20,7 @@ inline Mdp built(const MdpBuilder& builder) {
 /// Whether a solver is made for a model of this kind.
 inline bool can_do(const SolverEntry& entry, const Mdp& mdp, double discount) {
   if (entry.needs_discount && discount == 1.0) return false;
+  if (entry.needs_total && discount < 1.0) return false;
   if (entry.name == "backward-induction") return returning_states(mdp).empty();
   if (entry.name == "game-iteration") return mdp.alternating();
   if (mdp.alternating()) return false;
