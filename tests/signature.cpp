@@ -14,6 +14,8 @@
 #include <string>
 
 #include "learn/worlds.hpp"
+#include "quoll/solve/average_reward.hpp"
+#include "quoll/solve/finite_horizon.hpp"
 #include "quoll/solve/solver.hpp"
 
 namespace quoll {
@@ -71,11 +73,32 @@ std::uint64_t solved(const SolverEntry& entry, const World& world) {
   Hash hash;
   SolveSettings settings;
   settings.width = 1e-9;
+  if (entry.needs_total) settings.discount = 1.0;
   const Result<Solution> solution = entry.make()->solve(*world.mdp, settings);
   if (!solution) return 1;  // a kind of model it cannot do
   for (const double bound : solution->lower) hash.add(bound);
   for (const double bound : solution->upper) hash.add(bound);
   for (const Action action : solution->policy) hash.add(std::uint64_t{action});
+  return hash.value;
+}
+
+/// The answers to the questions of another kind: average reward, and a number of steps.
+std::uint64_t asked_otherwise(const World& world) {
+  Hash hash;
+  SolveSettings endless;
+  endless.max_sweeps = 1000;
+  if (const Result<AverageSolution> average = solve_average(*world.mdp, endless); average) {
+    for (const double bound : average->lower) hash.add(bound);
+    for (const double bound : average->upper) hash.add(bound);
+    for (const Action action : average->policy) hash.add(std::uint64_t{action});
+  }
+  HorizonSettings steps;
+  steps.steps = 20;
+  if (const Result<HorizonSolution> horizon = solve_horizon(*world.mdp, steps); horizon) {
+    for (const double bound : horizon->lower) hash.add(bound);
+    for (const double bound : horizon->upper) hash.add(bound);
+    for (const Action action : horizon->policy) hash.add(std::uint64_t{action});
+  }
   return hash.value;
 }
 
@@ -142,6 +165,7 @@ std::uint64_t signature(bool parts) {
         part("solve " + world.name + " " + std::string(entry.name), solved(entry, world));
       }
     }
+    if (world.mdp && !large) part("average, horizon " + world.name, asked_otherwise(world));
     part("step " + world.name, stepped(world));
   }
   return all.value;

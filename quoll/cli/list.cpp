@@ -13,6 +13,7 @@
 #include "quoll/cli/verbs.hpp"
 #include "quoll/learn/learner.hpp"
 #include "quoll/model/formats/format.hpp"
+#include "quoll/solve/average_reward.hpp"
 #include "quoll/solve/solver.hpp"
 
 namespace quoll::cli {
@@ -172,6 +173,7 @@ std::vector<Line> solver_lines() {
   for (const SolverEntry& entry : solvers()) {
     lines.push_back({std::string(entry.name), "", std::string(entry.summary)});
   }
+  lines.push_back({std::string(average_method), "", std::string(average_summary)});
   return lines;
 }
 

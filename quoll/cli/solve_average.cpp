@@ -12,7 +12,7 @@
 namespace quoll::cli {
 namespace {
 
-constexpr std::string_view method = "relative-value-iteration";
+constexpr std::string_view method = average_method;
 
 struct AverageAnswer {
   const SolveTask& task;

@@ -3,6 +3,7 @@
 // it (the bias).
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "quoll/base/error.hpp"
@@ -44,6 +45,12 @@ struct AverageSolution {
   bool completed = false;  ///< not stopped before its time
   bool converged = false;  ///< completed, and gap <= the width asked for
 };
+
+/// What solve_average() is called where methods are named; it answers another question than the
+/// solvers of the registry.
+inline constexpr std::string_view average_method = "relative-value-iteration";
+inline constexpr std::string_view average_summary =
+    "the best average reward per step, its gain and bias; with --average";
 
 /// Solves for the largest average reward per step (settings: width, maximise, threads, max_sweeps,
 /// keep_going; the discount plays no part). One class: relative value iteration (part_gains). More
