@@ -127,7 +127,7 @@ void EndingIteration::choose_alone(State s) {
 void EndingIteration::count(std::uint64_t updates, double change) {
   solution_.backups += updates;
   updates_ += updates;
-  if (updates_ < all_.size()) return;
+  if (all_.empty() || updates_ < all_.size()) return;
   solution_.sweeps += updates_ / all_.size();
   updates_ %= all_.size();
   go_on_ = go_on_ && may_continue(settings_, solution_, change);
