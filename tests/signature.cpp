@@ -57,7 +57,7 @@ std::uint64_t learned(const LearnerEntry& entry, const World& world, const std::
     settings.until_stable = false;
     const auto learner = make_learner(settings, world);
     if (!learner) continue;  // a choice this learner or world does not have
-    const LearnProgress now = (*learner)->advance(2500, {});
+    const LearnProgress now = (*learner)->advance(entry.traits.plans ? 300 : 2500, {});
     hash.add(now.steps);
     hash.add(now.episodes);
     hash.add(now.return_sum);
@@ -105,7 +105,7 @@ std::uint64_t asked_otherwise(const World& world) {
 /// Larger worlds are stepped only: learning them would add minutes, and no kind of step. Methods
 /// that plan do so for almost every step here.
 constexpr std::uint64_t learned_up_to = 10'000;  // states
-constexpr std::uint64_t planned_up_to = 100;
+constexpr std::uint64_t planned_up_to = 100, with_memory_up_to = 500;
 
 std::uint64_t stepped(const World& world) {
   Hash hash;
@@ -143,7 +143,10 @@ std::uint64_t signature(bool parts) {
   for (const World& world : the_worlds()) {
     const bool large = world.traits.states > learned_up_to;
     for (const LearnerEntry& entry : learners()) {
-      if (large || (entry.traits.plans && world.traits.states > planned_up_to)) continue;
+      const std::uint64_t most = entry.traits.plans        ? planned_up_to
+                                 : entry.replay == nullptr ? with_memory_up_to
+                                                           : learned_up_to;
+      if (world.traits.states > most) continue;
       const std::string name = std::string(entry.method) + " " + std::string(entry.rule);
       for (const std::string_view explore : exploration_names) {
         if (entry.traits.directed && explore != exploration_names[0]) continue;
@@ -161,11 +164,13 @@ std::uint64_t signature(bool parts) {
       }
     }
     for (const SolverEntry& entry : solvers()) {
+      if (entry.needs_total && world.traits.states > with_memory_up_to) continue;
       if (world.mdp && !large) {
         part("solve " + world.name + " " + std::string(entry.name), solved(entry, world));
       }
     }
-    if (world.mdp && !large) part("average, horizon " + world.name, asked_otherwise(world));
+    if (world.mdp && world.traits.states <= with_memory_up_to)
+      part("average, horizon " + world.name, asked_otherwise(world));
     part("step " + world.name, stepped(world));
   }
   return all.value;

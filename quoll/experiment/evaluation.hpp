@@ -41,7 +41,6 @@ struct Statistics {
 };
 Statistics statistics(std::span<const double> values);
 
-
 /// The value at a share in [0, 1] of an ascending list that is not empty, linear between
 /// neighbours.
 double quantile(std::span<const double> sorted, double share);
