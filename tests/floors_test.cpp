@@ -113,6 +113,25 @@ TEST(Floors, EverySourceKeepsTheRules) {
   EXPECT_GT(files, 20u);
 }
 
+// Two types of one name are one to the linker, whatever header a source took.
+TEST(Floors, ATypeOfAHeaderHasANameOfItsOwn) {
+  const std::filesystem::path root = std::filesystem::path(QUOLL_SOURCE) / "quoll";
+  const std::regex head("^(?:struct|class) ([A-Z][A-Za-z0-9]*)(?: final)? ?(?::[^:]|\\{)");
+  std::map<std::string, std::string> home;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+    if (entry.path().extension() != ".hpp") continue;
+    const std::string path = std::filesystem::relative(entry.path(), root).generic_string();
+    std::istringstream lines(read(entry.path()));
+    for (std::string line; std::getline(lines, line);) {
+      std::smatch found;
+      if (!std::regex_search(line, found, head)) continue;
+      const auto [first, fresh] = home.emplace(found[1].str(), path);
+      EXPECT_TRUE(fresh) << found[1].str() << " stands in " << first->second << " and in " << path;
+    }
+  }
+  EXPECT_GT(home.size(), 100u);
+}
+
 TEST(Floors, SourcesAreAtMost100ColumnsWideAndHoldNoOpenNotes) {
   const std::regex open_note(
       "TO"

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "quoll/learn/tabular/method_engine.hpp"
-#include "quoll/learn/tabular/moment.hpp"
+#include "quoll/learn/tabular/past_step.hpp"
 #include "quoll/learn/tabular/rules.hpp"
 
 namespace quoll {
@@ -40,7 +40,7 @@ class NStep {
     if (double{table[step.pair]} < table.best(step.state)) end_episode(table);
     const double best_next = step.carry == 0.0 ? 0.0 : table.best(step.next);
     // 2
-    kept_.push_back(Moment::of(step, draws));
+    kept_.push_back(PastStep::of(step, draws));
     // 3
     if (kept_.size() >= most_) {
       double value = best_next;
@@ -54,7 +54,7 @@ class NStep {
   // All that are kept, each from its own part of the way: one pass from the last to the first.
   void end_episode(ValueTable<V>& table) {
     if (kept_.empty()) return;
-    const Moment& last = kept_.back();
+    const PastStep& last = kept_.back();
     double value = last.carry == 0.0 ? 0.0 : table.best(last.next);
     for (auto e = kept_.rbegin(); e != kept_.rend(); ++e) {
       value = back(*e, value);
@@ -63,18 +63,18 @@ class NStep {
     kept_.clear();
   }
 
-  void persist(Archive& archive) { persist_moments(archive, kept_, begin_, most_); }
+  void persist(Archive& archive) { persist_steps(archive, kept_, begin_, most_); }
 
  private:
   // 4
-  static double back(const Moment& e, double value) {
+  static double back(const PastStep& e, double value) {
     return double{static_cast<V>(e.reward + e.carry * value)};
   }
 
   StepSize step_size_;
   const std::vector<std::uint64_t>& begin_;
   std::uint64_t most_;
-  std::vector<Moment> kept_;
+  std::vector<PastStep> kept_;
 };
 
 }  // namespace

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "quoll/learn/tabular/method_engine.hpp"
-#include "quoll/learn/tabular/moment.hpp"
+#include "quoll/learn/tabular/past_step.hpp"
 #include "quoll/learn/tabular/rules.hpp"
 
 namespace quoll {
@@ -36,7 +36,7 @@ class ReverseReplay {
 
   // 1, 2
   Change learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {
-    episode_.push_back(Moment::of(step, draws));
+    episode_.push_back(PastStep::of(step, draws));
     const Change learned = update(episode_.back(), table);
     if (episode_.size() == block_) end_episode(table);
     return learned;
@@ -48,10 +48,10 @@ class ReverseReplay {
     episode_.clear();
   }
 
-  void persist(Archive& archive) { persist_moments(archive, episode_, begin_, block_); }
+  void persist(Archive& archive) { persist_steps(archive, episode_, begin_, block_); }
 
  private:
-  Change update(const Moment& e, ValueTable<V>& table) {
+  Change update(const PastStep& e, ValueTable<V>& table) {
     const double best_next = e.carry == 0.0 ? 0.0 : table.best(e.next);
     const double target = e.reward + e.carry * best_next;
     return {best_next, target, learn_from(e, target, table, step_size_)};
@@ -60,7 +60,7 @@ class ReverseReplay {
   StepSize step_size_;
   const std::vector<std::uint64_t>& begin_;
   std::size_t block_ = 0;
-  std::vector<Moment> episode_;
+  std::vector<PastStep> episode_;
 };
 
 }  // namespace

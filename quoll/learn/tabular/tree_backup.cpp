@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "quoll/learn/tabular/method_engine.hpp"
-#include "quoll/learn/tabular/moment.hpp"
+#include "quoll/learn/tabular/past_step.hpp"
 #include "quoll/learn/tabular/rules.hpp"
 
 namespace quoll {
@@ -39,7 +39,7 @@ class TreeBackup {
   Change learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {
     // 1
     const double best_next = step.carry == 0.0 ? 0.0 : table.best(step.next);
-    kept_.push_back(Moment::of(step, draws));
+    kept_.push_back(PastStep::of(step, draws));
     // 2
     if (kept_.size() >= most_) {
       double value = back(kept_.back(), best_next);
@@ -54,7 +54,7 @@ class TreeBackup {
 
   void end_episode(ValueTable<V>& table) {
     if (kept_.empty()) return;
-    const Moment& last = kept_.back();
+    const PastStep& last = kept_.back();
     double following = last.carry == 0.0 ? 0.0 : table.best(last.next);
     for (auto e = kept_.rbegin(); e != kept_.rend(); ++e) {
       const double value = back(*e, following);
@@ -64,15 +64,15 @@ class TreeBackup {
     kept_.clear();
   }
 
-  void persist(Archive& archive) { persist_moments(archive, kept_, begin_, most_); }
+  void persist(Archive& archive) { persist_steps(archive, kept_, begin_, most_); }
 
  private:
   // 3
-  static double back(const Moment& e, double following) {
+  static double back(const PastStep& e, double following) {
     return double{static_cast<V>(e.reward + e.carry * following)};
   }
   // 4: what the state of `e` is worth when its action is worth `value`.
-  static double leaves(const Moment& e, double value, const ValueTable<V>& table) {
+  static double leaves(const PastStep& e, double value, const ValueTable<V>& table) {
     const RowView<V> row = table.row(e.state);
     const double best = double{row.best};
     return table[e.pair] == row.best ? best + (value - best) / row.ties : best;
@@ -81,7 +81,7 @@ class TreeBackup {
   StepSize step_size_;
   const std::vector<std::uint64_t>& begin_;
   std::uint64_t most_;
-  std::vector<Moment> kept_;
+  std::vector<PastStep> kept_;
 };
 
 }  // namespace
