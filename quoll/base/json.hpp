@@ -3,6 +3,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,6 +61,11 @@ class JsonWriter {
     return key(name).value(content);
   }
   JsonWriter& null_member(std::string_view name) { return key(name).null(); }
+  /// The value, or null where there is none.
+  template <class T>
+  JsonWriter& member(std::string_view name, const std::optional<T>& value) {
+    return value ? member(name, *value) : null_member(name);
+  }
 
   /// The member `name` as an array of `count` rows, each written by row(i) as one value. Over
   /// json_complete_rows the array is empty, and the enclosing object says "omitted": count at its

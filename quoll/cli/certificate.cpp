@@ -58,14 +58,6 @@ Result<Checked> check(OpenCertificate& open, const World& world) {
   return checked;
 }
 
-template <class Value>
-void member_or_null(JsonWriter& json, std::string_view key, const std::optional<Value>& value) {
-  if (value)
-    json.member(key, *value);
-  else
-    json.null_member(key);
-}
-
 void write_proof(JsonWriter& json, const Checked& checked) {
   const Proved proof = checked.proof();
   json.key("start").begin_object();
@@ -80,10 +72,10 @@ void write_violation(JsonWriter& json, const Checked& checked) {
   std::optional<std::string> state, action;
   if (verdict.state) state = checked.mdp().state_name(*verdict.state);
   if (verdict.choice) action = checked.mdp().action_name(*verdict.choice);
-  member_or_null(json, "state", state);
-  member_or_null(json, "action", action);
-  member_or_null(json, "claimed", verdict.claimed);
-  member_or_null(json, "found", verdict.found);
+  json.member("state", state);
+  json.member("action", action);
+  json.member("claimed", verdict.claimed);
+  json.member("found", verdict.found);
 }
 
 std::string checked_json(const Checked& checked) {

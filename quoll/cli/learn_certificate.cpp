@@ -40,8 +40,9 @@ std::string goal_text(const CertifyGoal& goal) {
 std::string blocking_text(const Run& run, const Certifier& certifier) {
   std::string text;
   std::uint64_t needed = 0;
-  for (const Blocking& pair : certifier.blocking(1'000'000'000)) needed += pair.needed;
-  for (const Blocking& pair : certifier.blocking(5)) {
+  const std::vector<Blocking> pairs = certifier.blocking();
+  for (const Blocking& pair : pairs) needed += pair.needed;
+  for (const Blocking& pair : std::span(pairs).first(std::min<std::size_t>(pairs.size(), 5))) {
     text +=
         fmt::format("{}({}, {}) tried {}", text.empty() ? "Blocked by " : ", ",
                     state_text(run.world(), pair.state),

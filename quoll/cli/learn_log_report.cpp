@@ -160,14 +160,6 @@ double start_value(const LogLearning& learned) {
   return value;
 }
 
-template <class Value>
-void member_or_null(JsonWriter& json, std::string_view key, const std::optional<Value>& value) {
-  if (value)
-    json.member(key, *value);
-  else
-    json.null_member(key);
-}
-
 void write_q(JsonWriter& json, const LogLearning& learned, bool all) {
   const Mdp& names = *learned.names;
   const std::vector<double> q_star = q_star_of(learned);
@@ -187,10 +179,10 @@ void write_q(JsonWriter& json, const LogLearning& learned, bool all) {
     if (row.visits > 0) q = learned.plan.pair_value[pair];
     if (row.visits > 0) mean = learned.mean_reward(pair);
     if (!q_star.empty()) best = q_star[pair];
-    member_or_null(json, "q", q);
+    json.member("q", q);
     json.member("visits", row.visits);
-    member_or_null(json, "mean_reward", mean);
-    member_or_null(json, "q_star", best);
+    json.member("mean_reward", mean);
+    json.member("q_star", best);
     json.end_object();
   });
 }
@@ -211,8 +203,8 @@ void write_values(JsonWriter& json, const LogLearning& learned, bool all) {
       lower = bounds->lower[s];
       upper = bounds->upper[s];
     }
-    member_or_null(json, "lower", lower);
-    member_or_null(json, "upper", upper);
+    json.member("lower", lower);
+    json.member("upper", upper);
     json.end_object();
   });
 }
@@ -228,8 +220,7 @@ void write_bounds(JsonWriter& json, const LogLearning& learned) {
   json.member("lower", bounds->start_lower).member("upper", bounds->start_upper);
   json.member("gap", bounds->gap);
   json.member("basis", certain ? "experience-deterministic" : "experience-confidence");
-  member_or_null(json, "confidence",
-                 certain ? std::optional<double>() : std::optional(learned.confidence));
+  json.member("confidence", certain ? std::optional<double>() : std::optional(learned.confidence));
   json.key("assumptions").begin_array();
   for (const std::string& one : assumptions(learned)) json.value(one);
   json.end_array().end_object();
@@ -237,10 +228,10 @@ void write_bounds(JsonWriter& json, const LogLearning& learned) {
 
 void write_verdict(JsonWriter& json, const LogLearning& learned) {
   const std::optional<Optimality>& judged = learned.optimality;
-  member_or_null(json, "optimal", judged ? judged->optimal : std::nullopt);
-  member_or_null(json, "proof", judged ? std::optional(judged->proof) : std::nullopt);
-  member_or_null(json, "regret", judged ? std::optional(judged->regret) : std::nullopt);
-  member_or_null(json, "unreachable", judged ? std::optional(judged->unreachable) : std::nullopt);
+  json.member("optimal", judged ? judged->optimal : std::nullopt);
+  json.member("proof", judged ? std::optional(judged->proof) : std::nullopt);
+  json.member("regret", judged ? std::optional(judged->regret) : std::nullopt);
+  json.member("unreachable", judged ? std::optional(judged->unreachable) : std::nullopt);
 }
 
 }  // namespace
@@ -264,8 +255,7 @@ std::string log_json(const LogLearning& learned, const std::vector<std::string>&
   const LogCounts counts = counts_of(learned);
   JsonWriter json(JsonStyle::pretty);
   json.begin_object();
-  member_or_null(json, "world",
-                 learned.named_by_logs ? std::nullopt : std::optional(learned.world.name));
+  json.member("world", learned.named_by_logs ? std::nullopt : std::optional(learned.world.name));
   json.key("data").begin_array();
   for (const std::string& log : logs) json.value(log);
   json.end_array();

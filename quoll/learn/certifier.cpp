@@ -55,6 +55,7 @@ Result<Certifier> Certifier::make(const TabularSetup& setup, const CertifyGoal& 
   }
   made.begin_ = AnySource<double>::rows_of(world);
   made.pessimism_ = known_pairs_only(setup);
+  made.hope_ = unknown_pairs_best(setup);
   made.model_ = CountedModel(made.begin_.back());
   made.square_sum_.assign(made.begin_.back(), 0.0);
   made.acted_.assign(made.begin_.size() - 1, 0);
@@ -140,9 +141,7 @@ void Certifier::check_certain() {
   due_ = steps_ + 1 + steps_ / 40;
   if (model_.outcomes() == outcomes_ && !certificate_.lower.empty()) return;
   outcomes_ = model_.outcomes();
-  Planning hope = pessimism_;
-  hope.unknown = values_.second;
-  const Plan upper = plan(model_, begin_, hope);
+  const Plan upper = plan(model_, begin_, hope_);
   const Plan lower = plan(model_, begin_, pessimism_);
   if (!upper.solved || !lower.solved) return;
   for (State s = 0; s < upper.upper.size(); ++s) {
@@ -165,7 +164,8 @@ void Certifier::check_noisy() {
   due_ = steps_ + 1 + 3 * (steps_ / 10);
   const double k = static_cast<double>(certificate_.checks);
   constexpr double pi_square = 9.869604401089358;
-  const double failure = (1.0 - goal_.confidence) * 6.0 / (pi_square * k * k);
+  const double share = goal_.once ? 1.0 : 6.0 / (pi_square * k * k);
+  const double failure = (1.0 - goal_.confidence) * share;
   for (std::uint64_t pair = 0; pair < begin_.back() && !noisy_rewards_; ++pair) {
     const double n = model_.tried(pair);
     double explained = 0.0;

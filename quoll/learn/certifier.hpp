@@ -11,7 +11,6 @@
 #include "quoll/learn/interval_model.hpp"
 #include "quoll/learn/settings.hpp"
 #include "quoll/learn/tabular/planning.hpp"
-#include "quoll/learn/tabular/way_to_unknown.hpp"
 #include "quoll/learn/update.hpp"
 
 namespace quoll {
@@ -24,6 +23,7 @@ struct CertifyGoal {
   bool relative = false;     ///< gap is a share of the start value, the smaller of its two bounds
   bool everywhere = false;   ///< asked about every state, not only where episodes begin
   double confidence = 0.95;  ///< in noisy worlds: of all checkpoints together
+  bool once = false;         ///< there is one check: it need not share the failure with later ones
   bool listed = false;  ///< the world's lists of successors are taken as known, not their shares
 };
 
@@ -63,7 +63,7 @@ class Certifier {
 
   const ExperienceCertificate& certificate() const { return certificate_; }
   /// The pairs of the optimistic policy whose values are least certain, at most `count`.
-  std::vector<Blocking> blocking(std::size_t count) const;
+  std::vector<Blocking> blocking(std::size_t count = ~std::size_t{0}) const;
   /// What the certificate takes for granted, a sentence each.
   std::vector<std::string> assumptions() const;
   bool certain() const { return certain_; }
@@ -74,7 +74,6 @@ class Certifier {
  private:
   void check_certain();
   void check_noisy();
-  bool hopeless() const;
   double allowed() const;
   std::vector<State> asked() const;
 
@@ -85,7 +84,7 @@ class Certifier {
   std::pair<double, double> values_{0.0, 0.0};  // of any policy
   std::vector<std::uint64_t> begin_;
   ListedSuccessors successors_;
-  Planning pessimism_;
+  Planning pessimism_, hope_;
   CountedModel model_;
   std::vector<double> square_sum_;
   bool noisy_rewards_ = false;

@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-#include "quoll/base/math.hpp"
+#include "quoll/base/normal.hpp"
 #include "quoll/env/world.hpp"
 
 namespace quoll {
@@ -45,11 +45,6 @@ void add_successors(std::vector<State>& next, std::uint32_t count, std::uint32_t
   }
 }
 
-double normal(Rng& dice) {
-  const double length = std::sqrt(-2.0 * math::log(1.0 - dice.uniform()));
-  return length * math::cos(6.283185307179586 * dice.uniform());
-}
-
 MdpArrays generate(const Settings& settings) {
   const auto states = static_cast<std::uint32_t>(settings.states);
   const auto branching = static_cast<std::uint32_t>(settings.branching);
@@ -75,7 +70,7 @@ MdpArrays generate(const Settings& settings) {
         before = cut;
       }
       a.probability.push_back(1.0 - before);
-      a.reward.push_back(normal(dice));
+      a.reward.push_back(draw_normal(dice));
       a.action.push_back(action);
       a.outcome_begin.push_back(a.next.size());
     }

@@ -37,7 +37,7 @@ class DynaQ {
 
   Change learn(const Step& step, ValueTable<double>& table, const ChoiceDraws& draws) {
     // 1
-    const double best_next = step.carry == 0.0 ? 0.0 : table.best(step.next);
+    const double best_next = table.best_after(step.carry, step.next);
     const double target = step.reward + step.carry * best_next;
     const double alpha = step_size_.at(step.n);
     step_towards(table, step.state, step.pair, target, alpha, step_size_, draws.rounding());

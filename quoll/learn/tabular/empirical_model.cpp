@@ -41,7 +41,7 @@ class EmpiricalModel {
     // The table stays as it is between plans: what is told is how far off it is.
     const double target =
         model_.backup(step.pair, planning_.discount, [&](State s) { return table.best(s); });
-    return {step.carry == 0.0 ? 0.0 : table.best(step.next), target, 0.0};
+    return {table.best_after(step.carry, step.next), target, 0.0};
   }
   void end_episode(ValueTable<double>&) {}
 

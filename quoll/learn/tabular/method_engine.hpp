@@ -52,8 +52,7 @@ class MethodLearner final : public Learner {
     progress_.logged = 0;
     if (!log.empty()) steps = std::min<std::uint64_t>(steps, log.size());
     for (; steps > 0 && progress_.halt == LearnProgress::Halt::none; --steps) {
-      const Update update = step();
-      if (!log.empty()) log[progress_.logged++] = update;
+      step(log.empty() ? nullptr : &log[progress_.logged++]);
     }
     return progress();
   }
@@ -135,7 +134,8 @@ class MethodLearner final : public Learner {
     }
   }
 
-  Update step() {
+  // One step, and in `told`, unless nobody looks, all about it.
+  void step(Update* told) {
     // 1. Choose an action a in s, see the reward r and the next state s'.
     const ChoiceDraws draws = ChoiceDraws::of(walk_.behaviour);
     Chosen chosen{walk_.planned, walk_.planned_explores};
@@ -176,13 +176,15 @@ class MethodLearner final : public Learner {
       watch(step, old, learned);
       walk_.state = step.next;
     }
-    return {step.number,       0,
-            step.state,        step.action,
-            step.reward,       step.next,
-            step.terminated,   step.truncated,
-            chosen.explored,   old,
-            learned.best_next, learned.target,
-            learned.step_size, double{table_[step.pair]}};
+    if (told != nullptr) {
+      *told = {step.number,       0,
+               step.state,        step.action,
+               step.reward,       step.next,
+               step.terminated,   step.truncated,
+               chosen.explored,   old,
+               learned.best_next, learned.target,
+               learned.step_size, double{table_[step.pair]}};
+    }
   }
 
   Chosen choose(State state, const ChoiceDraws& draws) {

@@ -36,6 +36,13 @@ inline Planning known_pairs_only(const TabularSetup& setup) {
   return planning;
 }
 
+/// The plan of somebody who takes what was not tried for the best there can be; needs rewards.
+inline Planning unknown_pairs_best(const TabularSetup& setup) {
+  Planning planning = known_pairs_only(setup);
+  planning.unknown = value_range(*setup.rewards, setup.discount).second;
+  return planning;
+}
+
 /// Writes the values of known pairs into the table.
 inline void store(const Plan& plan, ValueTable<double>& table) {
   if (!plan.solved) return;

@@ -38,7 +38,7 @@ class NStep {
   Change learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {
     // 1
     if (double{table[step.pair]} < table.best(step.state)) end_episode(table);
-    const double best_next = step.carry == 0.0 ? 0.0 : table.best(step.next);
+    const double best_next = table.best_after(step.carry, step.next);
     // 2
     kept_.push_back(PastStep::of(step, draws));
     // 3
@@ -55,7 +55,7 @@ class NStep {
   void end_episode(ValueTable<V>& table) {
     if (kept_.empty()) return;
     const PastStep& last = kept_.back();
-    double value = last.carry == 0.0 ? 0.0 : table.best(last.next);
+    double value = table.best_after(last.carry, last.next);
     for (auto e = kept_.rbegin(); e != kept_.rend(); ++e) {
       value = back(*e, value);
       learn_from(*e, value, table, step_size_);

@@ -20,7 +20,7 @@ class OneStep {
       : rule_(setup, PairLayout{0, table.pairs()}, table.begin()), step_size_(setup.step_size) {}
 
   Change learn(const Step& step, ValueTable<Value>& table, const ChoiceDraws& draws) {
-    const double best_next = step.carry == 0.0 ? 0.0 : table.best(step.next);
+    const double best_next = table.best_after(step.carry, step.next);
     const Revision<Value> revision =
         revise(rule_, step_size_, step.pair, table[step.pair], step.reward, step.carry, best_next,
                step.n, draws.rounding());

@@ -37,6 +37,7 @@ class OptimisticModel {
         begin_(table.begin()),
         starts_(setup.starts.states().begin(), setup.starts.states().end()),
         pessimism_(known_pairs_only(setup)),
+        hope_(unknown_pairs_best(setup)),
         optimism_(optimism_of(setup)),
         model_(table.pairs()),
         search_(table.states()),
@@ -49,21 +50,21 @@ class OptimisticModel {
     if (!certain_) {
       if (stale_) improve_optimistic_values(model_, begin_, optimism_, value_, pair_value_);
       stale_ = false;
-      return {greedy(s, first_tie_ ? 0 : draws.tie()), true};
+      return {greedy(s, first_tie_ ? 0 : draws.tie()), false};
     }
     const Action untried = any_untried(table, s, first_tie_ ? 0 : draws.tie());
-    if (untried != no_action) return {untried, true};
+    if (untried != no_action) return {untried, false};
     if (taken_ == way_.size() || way_[taken_] < begin_[s] || way_[taken_] >= begin_[s + 1]) {
       way_ = search_.find(model_, begin_, s, optimism_.most, optimism_.discount);
       taken_ = 0;
     }
     if (way_.empty()) {
       // All that can be reached is known, and no end is among it.
-      if (stale_) pair_value_ = plan(model_, begin_, hope()).pair_value;
+      if (stale_) pair_value_ = plan(model_, begin_, hope_).pair_value;
       stale_ = false;
       return {greedy(s, first_tie_ ? 0 : draws.tie()), false};
     }
-    return {static_cast<Action>(way_[taken_++] - begin_[s]), search_.explores()};
+    return {static_cast<Action>(way_[taken_++] - begin_[s]), false};
   }
 
   Change learn(const Step& step, ValueTable<double>& table, const ChoiceDraws&) {
@@ -77,7 +78,7 @@ class OptimisticModel {
       stale_ = true;
     }
     // What is told: how far the one step is from what the table holds, which is not in use.
-    const double best_next = step.carry == 0.0 ? 0.0 : table.best(step.next);
+    const double best_next = table.best_after(step.carry, step.next);
     const double target =
         model_.backup(step.pair, optimism_.discount, [&](State y) { return table.best(y); });
     table.set(step.state, step.pair, target);
@@ -147,17 +148,9 @@ class OptimisticModel {
     return optimism;
   }
 
-  // What U is without noise.
-  Planning hope() const {
-    Planning planning = pessimism_;
-    planning.unknown = optimism_.most;
-    planning.known_after = optimism_.known_after;
-    return planning;
-  }
-
   State find_widest() {
     if (certain_) {
-      value_ = plan(model_, begin_, hope()).state_value;
+      value_ = plan(model_, begin_, hope_).state_value;
     } else {
       improve_optimistic_values(model_, begin_, optimism_, value_, pair_value_);
     }
@@ -188,9 +181,9 @@ class OptimisticModel {
   }
 
   bool certain_, first_tie_;
-  std::vector<std::uint64_t> begin_;
+  const std::vector<std::uint64_t>& begin_;
   std::vector<State> starts_;
-  Planning pessimism_;
+  Planning pessimism_, hope_;  // L, and U without noise
   Optimism optimism_;
   CountedModel model_;
   WayToUnknown search_;

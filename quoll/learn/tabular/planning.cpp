@@ -28,8 +28,8 @@ Result<Mdp> model_of(const CountedModel& model, const std::vector<std::uint64_t>
       }
     }
     if (unknown && planning.unknown) writer.leave(*planning.unknown);
-    const bool needs_way_out = planning.discount == 1.0 || !planning.unknown;
-    if (begin[s] < begin[s + 1] && needs_way_out && (stuck || planning.discount == 1.0)) {
+    const bool acts = begin[s] < begin[s + 1];
+    if (acts && (planning.discount == 1.0 || (stuck && !planning.unknown))) {
       writer.leave(planning.stuck);
     }
   }

@@ -4,17 +4,12 @@
 #include <cmath>
 
 #include "quoll/base/math.hpp"
+#include "quoll/base/normal.hpp"
 #include "quoll/learn/tabular/model_writer.hpp"
 #include "quoll/solve/optimality.hpp"
 #include "quoll/solve/solver.hpp"
 
 namespace quoll {
-
-double draw_normal(Rng& dice) {
-  const double radius = std::sqrt(-2.0 * math::log(1.0 - dice.uniform()));
-  constexpr double turn = 6.283185307179586;
-  return radius * math::cos(turn * dice.uniform());
-}
 
 double draw_gamma(double shape, Rng& dice) {
   if (shape < 1.0) {

@@ -9,9 +9,7 @@
 
 namespace quoll {
 
-/// Draws with the standard normal distribution (Box, Muller 1958) and the Gamma distribution of
-/// this shape and scale 1 (Marsaglia, Tsang 2000).
-double draw_normal(Rng& dice);
+/// A draw from the Gamma distribution of this shape and scale 1 (Marsaglia, Tsang 2000).
 double draw_gamma(double shape, Rng& dice);
 
 struct Posterior {

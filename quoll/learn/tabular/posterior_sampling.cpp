@@ -46,7 +46,7 @@ class PosteriorSampling {
     }
     const RaggedRows<double> rows{begin_.data()};
     const RowView<double> row = rows.view(pair_value_.data(), s);
-    return {rows.pick(pair_value_.data(), s, row, draws.tie()), true};
+    return {rows.pick(pair_value_.data(), s, row, draws.tie()), false};
   }
 
   // 3
@@ -54,7 +54,7 @@ class PosteriorSampling {
     count(model_, step);
     const std::uint32_t n = model_.tried(step.pair);
     stale_ = stale_ || (n & (n - 1)) == 0;
-    const double best_next = step.carry == 0.0 ? 0.0 : table.best(step.next);
+    const double best_next = table.best_after(step.carry, step.next);
     const double target =
         model_.backup(step.pair, planning_.discount, [&](State y) { return table.best(y); });
     table.set(step.state, step.pair, target);
@@ -79,7 +79,7 @@ class PosteriorSampling {
   }
 
  private:
-  std::vector<std::uint64_t> begin_;
+  const std::vector<std::uint64_t>& begin_;
   Planning planning_;
   Posterior posterior_;
   Rng dice_;

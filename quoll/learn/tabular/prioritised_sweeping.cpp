@@ -54,7 +54,7 @@ class PrioritisedSweeping {
 
   Change learn(const Step& step, ValueTable<double>& table, const ChoiceDraws&) {
     // 1
-    const double best_next = step.carry == 0.0 ? 0.0 : table.best(step.next);
+    const double best_next = table.best_after(step.carry, step.next);
     if (count(model_, step) && !step.terminated) {
       predecessors_.add(step.next, {step.pair, step.state, step.carry < 0.0});
     }

@@ -52,7 +52,7 @@ class QLambda {
 
   Change learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {
     // 2
-    const double best_next = step.carry == 0.0 ? 0.0 : table.best(step.next);
+    const double best_next = table.best_after(step.carry, step.next);
     const bool greedy =
         !step.terminated && double{table[table.pair(step.next, step.next_action)]} == best_next;
     // 3: rounded as the table is, so that what is learned already gives exactly 0.

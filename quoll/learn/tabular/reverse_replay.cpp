@@ -52,7 +52,7 @@ class ReverseReplay {
 
  private:
   Change update(const PastStep& e, ValueTable<V>& table) {
-    const double best_next = e.carry == 0.0 ? 0.0 : table.best(e.next);
+    const double best_next = table.best_after(e.carry, e.next);
     const double target = e.reward + e.carry * best_next;
     return {best_next, target, learn_from(e, target, table, step_size_)};
   }

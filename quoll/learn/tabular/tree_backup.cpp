@@ -38,7 +38,7 @@ class TreeBackup {
 
   Change learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {
     // 1
-    const double best_next = step.carry == 0.0 ? 0.0 : table.best(step.next);
+    const double best_next = table.best_after(step.carry, step.next);
     kept_.push_back(PastStep::of(step, draws));
     // 2
     if (kept_.size() >= most_) {
@@ -55,7 +55,7 @@ class TreeBackup {
   void end_episode(ValueTable<V>& table) {
     if (kept_.empty()) return;
     const PastStep& last = kept_.back();
-    double following = last.carry == 0.0 ? 0.0 : table.best(last.next);
+    double following = table.best_after(last.carry, last.next);
     for (auto e = kept_.rbegin(); e != kept_.rend(); ++e) {
       const double value = back(*e, following);
       following = leaves(*e, value, table);

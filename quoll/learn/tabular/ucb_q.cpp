@@ -51,7 +51,7 @@ class UcbQ {
     // 2
     const double bonus = bonus_ / std::sqrt(static_cast<double>(step.n));
     // 3
-    const double best_next = step.carry == 0.0 ? 0.0 : table.best(step.next);
+    const double best_next = table.best_after(step.carry, step.next);
     const double target = step.reward + bonus + step.carry * best_next;
     const double alpha = step_size_.at(step.n);
     step_towards(q_, step.state, step.pair, target, alpha, step_size_, draws.rounding());

@@ -37,6 +37,9 @@ class ValueTable {
   /// max_a Q(s, a).
   double best(State s) const { return double{row(s).best}; }
 
+  /// max_b Q(next, b), or 0 where `carry` says that nothing follows.
+  double best_after(double carry, State next) const { return carry == 0.0 ? 0.0 : best(next); }
+
   /// One more visit; returns the count, which stops at 2^32 - 1.
   std::uint32_t visit(std::uint64_t pair) { return visits_[pair] += visits_[pair] != ~0u; }
 

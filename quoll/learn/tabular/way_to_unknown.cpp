@@ -39,7 +39,6 @@ const std::vector<std::uint64_t>& WayToUnknown::find(const CountedModel& model,
   way_.clear();
   labels_.clear();
   heap_.clear();
-  explores_ = false;
   if (++search_ == 0) {
     std::fill(met_.begin(), met_.end(), 0u);
     search_ = 1;
@@ -60,7 +59,6 @@ const std::vector<std::uint64_t>& WayToUnknown::find(const CountedModel& model,
       if (model.tried(pair) == 0) {
         trace(top);
         way_.push_back(pair);
-        explores_ = true;
         return way_;
       }
       model.each(pair, [&](const CountedModel::Outcome& seen) {

@@ -26,9 +26,6 @@ class WayToUnknown {
                                          const std::vector<std::uint64_t>& begin, State from,
                                          double best, double discount);
 
-  /// True when the last way found leads to a pair never tried.
-  bool explores() const { return explores_; }
-
  private:
   struct Label {
     double excess = 0.0, factor = 1.0;  // factor = discount^steps
@@ -47,7 +44,6 @@ class WayToUnknown {
   std::vector<Label> labels_;
   std::vector<std::uint32_t> heap_;
   std::vector<std::uint64_t> way_;
-  bool explores_ = false;
 };
 
 }  // namespace quoll
