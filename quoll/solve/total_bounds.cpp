@@ -224,8 +224,8 @@ Solution TotalBounds::finish() {
   const bool sure = lower_ != open_below && inductive_.ends(solution_.policy) &&
                     inductive_.holds_below(lower_, solution_.policy);
   const bool bounded = upper_ != open_above && inductive_.raise_above(upper_);
-  solution_.lower = sure ? std::move(lower_) : open_below;
-  solution_.upper = bounded ? std::move(upper_) : open_above;
+  solution_.lower = sure ? lower_ : open_below;
+  solution_.upper = bounded ? upper_ : open_above;
   conclude(mdp_, solution_, settings_.width);
   return std::move(solution_);
 }

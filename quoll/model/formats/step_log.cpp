@@ -59,9 +59,9 @@ bool StepLog::read_header(std::string_view line) {
   Error stranger;
   for (std::size_t i = 0; i < fields_.count; ++i) {
     const std::string_view name = fields_.text[i];
-    const auto* const known = std::find(column_names.begin(), column_names.end(), name);
-    const auto at = static_cast<std::size_t>(known - column_names.begin());
-    if (known == column_names.end()) {
+    const auto at =
+        static_cast<std::size_t>(std::ranges::find(column_names, name) - column_names.begin());
+    if (at == column_names.size()) {
       const std::string near = nearest(name, column_names);
       if (!near.empty() && stranger.column == 0) {
         stranger = {path_, lines_.number(), fields_.at[i] + 1, std::string(name), near};
