@@ -2,10 +2,12 @@
 //   ./dev bench solve [ROW]
 // Each row is also one line `quoll solve ...`, printed with it; its JSON `seconds` is the figure.
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "bench/yardstick/bellman_loop.hpp"
 #include "bench/yardstick/stopwatch.hpp"
@@ -41,6 +43,8 @@ quoll::Parameters parameters(std::string text) {
   return out;
 }
 
+constexpr int rounds = 5;
+
 int measure(const Row& row) {
   const auto world = quoll::find_world(row.world, parameters(row.arguments));
   if (!world) return std::printf("%s\n", quoll::message(world.error()).c_str()), 1;
@@ -67,26 +71,38 @@ int measure(const Row& row) {
   std::printf("  %-28s %8.3f s %6llu sweeps\n",
               row.span ? "by hand, span" : "by hand, Gauss-Seidel", by_hand,
               static_cast<unsigned long long>(answer.sweeps));
-  for (const unsigned threads : {1u, 2u}) {
-    quoll::SolveSettings settings;
-    settings.discount = row.discount;
-    settings.width = row.width;
-    settings.threads = threads;
-    quoll::Result<quoll::Solution> solution = quoll::Error{};
-    const double time = yardstick::seconds([&] { solution = quoll::solve(mdp, settings); });
+  // One thread and two in turn, so that a machine that is busy for a while slows both.
+  std::array<std::vector<double>, 2> times;
+  std::vector<double> ratios;
+  std::array<quoll::Result<quoll::Solution>, 2> solutions{quoll::Error{}, quoll::Error{}};
+  for (int round = 0; round < rounds; ++round) {
+    for (unsigned i = 0; i < 2; ++i) {
+      quoll::SolveSettings settings;
+      settings.discount = row.discount;
+      settings.width = row.width;
+      settings.threads = i + 1;
+      times[i].push_back(yardstick::seconds([&] { solutions[i] = quoll::solve(mdp, settings); }));
+    }
+    ratios.push_back(times[0].back() / times[1].back());
+  }
+  for (unsigned i = 0; i < 2; ++i) {
+    const quoll::Result<quoll::Solution>& solution = solutions[i];
     if (!solution) return std::printf("%s\n", quoll::message(solution.error()).c_str()), 1;
+    const double time = yardstick::median(times[i]);
     double outside = 0.0;  // how far the hand-written answer lies outside the certified intervals
     for (quoll::State s = 0; s < mdp.states(); ++s) {
       outside = std::max(
           {outside, solution->lower[s] - answer.value[s], answer.value[s] - solution->upper[s]});
     }
     std::printf("  %-22s %u thread %8.3f s %6llu sweeps  ratio %5.2f  gap %.1e  bar %s%s\n",
-                solution->method.c_str(), threads, time,
+                solution->method.c_str(), i + 1, time,
                 static_cast<unsigned long long>(solution->sweeps), by_hand / time,
                 quoll::largest_gap(mdp, *solution), row.bar,
                 solution->converged ? "" : "  NOT CERTIFIED");
     std::printf("  by hand outside the interval by at most %.1e\n", outside);
   }
+  std::printf("  two threads %.2f x one (median of %d pairs; bar 1.6)\n", yardstick::median(ratios),
+              rounds);
   return 0;
 }
 

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "quoll/model/tarjan.hpp"
+#include "quoll/model/path_search.hpp"
 
 namespace quoll {
 
@@ -33,7 +33,7 @@ class Splitting {
     std::vector<State> work = first_states();  // step 1
     std::vector<bool>& inside = result_.inside;
     const auto use = [&inside](std::uint64_t c) { return inside[c]; };
-    Tarjan search(mdp_, use, result_.component);
+    PathSearch search(mdp_, use, result_.component);
     while (!work.empty()) {
       for (const State s : work) search.forget(s);
       search.restart();

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "quoll/model/tarjan.hpp"
+#include "quoll/model/path_search.hpp"
 
 namespace quoll {
 
@@ -105,7 +105,7 @@ std::vector<bool> can_end(const Mdp& mdp) {
 
 std::vector<std::uint32_t> strongly_connected(const Mdp& mdp, std::uint64_t most) {
   std::vector<std::uint32_t> component(mdp.states(), no_component);
-  Tarjan search(mdp, [](std::uint64_t) { return true; }, component);
+  PathSearch search(mdp, [](std::uint64_t) { return true; }, component);
   search.stop_above(most);
   for (State s = 0; s < mdp.states() && !search.stopped(); ++s) search.visit(s);
   if (search.stopped()) component.clear();

@@ -26,7 +26,7 @@ std::vector<std::uint32_t> moves_to(const Mdp& mdp, std::span<const State> targe
 std::vector<std::uint32_t> moves_from(const Mdp& mdp, std::span<const State> from);
 
 /// Strongly connected component of each state; ends are not left. Numbered in reverse topological
-/// order: a move never leads to a component of higher number. Tarjan 1972, without recursion.
+/// order: a move never leads to a component of higher number. Gabow 2000, without recursion.
 /// Empty if a component has more than `most` states, which is found out early if it is large.
 std::vector<std::uint32_t> strongly_connected(const Mdp& mdp, std::uint64_t most = max_states);
 

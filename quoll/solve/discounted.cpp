@@ -31,30 +31,29 @@ Residual Discounted::residual_of_value() {
 }
 
 bool Discounted::certify() {
-  const Residual residual = sweep_all(mdp_, discount_, residual_of_value(), settings_.threads);
-  return certify_with(backed_up_, residual.least, residual.greatest);
+  return certify_with(backed_up_,
+                      sweep_all(mdp_, discount_, residual_of_value(), settings_.threads));
 }
 
 bool Discounted::certify(PolicyRows& rows) {
   const PackingResidual packing(residual_of_value(), rows);
-  const Residual residual = sweep_all(mdp_, discount_, packing, settings_.threads);
-  return certify_with(backed_up_, residual.least, residual.greatest);
+  return certify_with(backed_up_, sweep_all(mdp_, discount_, packing, settings_.threads));
 }
 
-bool Discounted::certify_with(std::vector<double>& backed_up, double least, double greatest) {
+bool Discounted::certify_with(std::vector<double>& backed_up, const Differences& change) {
   ++solution_.sweeps;
   solution_.backups += mdp_.states();
   double size = 0.0;
   for (const double v : backed_up) size = std::max(size, std::fabs(v));
   for (const double v : value_) size = std::max(size, std::fabs(v));
   std::swap(value_, backed_up);
-  if (greatest == -infinity) {  // only ends
+  if (change.greatest == -infinity) {  // only ends
     bounds_ = {0.0, 0.0, 0.0};
     return true;
   }
-  span_ = greatest - least;
-  residual_ = std::max(std::fabs(least), std::fabs(greatest));
-  bounds_ = span_bounds(scale_, discount_, least, greatest, size);
+  span_ = change.span();
+  residual_ = std::max(std::fabs(change.least), std::fabs(change.greatest));
+  bounds_ = span_bounds(scale_, discount_, change.least, change.greatest, size);
   stopped_ = !may_continue(settings_, solution_, bounds_.width());
   return stopped_ || bounds_.width() <= std::max(settings_.width, 2.0 * bounds_.rounding);
 }

@@ -24,9 +24,9 @@ class Discounted {
   bool certify();
   /// The same, and packs the rows of the greedy policy.
   bool certify(PolicyRows& rows);
-  /// The same bounds after a sweep of the caller's own: `backed_up` = T V, least <= T V - V <=
-  /// greatest; the policy is the caller's to set.
-  bool certify_with(std::vector<double>& backed_up, double least, double greatest);
+  /// The same bounds after a sweep of the caller's own: `backed_up` = T V, `change` = T V - V; the
+  /// policy is the caller's to set.
+  bool certify_with(std::vector<double>& backed_up, const Differences& change);
 
   const Mdp& mdp() const { return mdp_; }
   double discount() const { return discount_; }

@@ -145,7 +145,7 @@ void EndingIteration::follow_wave() {
   constexpr std::uint64_t most_sweeps = 500;
   std::vector<double> value = value_;
   std::vector<Action> policy = solution_.policy;
-  Wavefront wave(mdp_, value);
+  Wavefront wave(mdp_, value, settings_.threads);
   if (wave.bands() < least_bands) return;
   wave.guess(2.0 * std::min(0.0, mdp_.reward_bounds().first));
   const double aim = 32.0 * half_ulp * reward_size_ * static_cast<double>(4 * wave.bands());

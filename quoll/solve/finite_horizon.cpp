@@ -75,7 +75,7 @@ class Induction {
   bool step(std::uint64_t left) {
     error_ = exact_ ? 0.0 : sweep_error(scale_, size_);
     const Residual residual{value_.data(), next_.data(), greedy_.data()};
-    const Residual done =
+    const Differences done =
         sweep_all(mdp_, mdp_.carry(discount_), residual, settings_.threads);  // step 3
     ++out_.sweeps;
     out_.action_changes += change_actions(left);

@@ -59,12 +59,12 @@ class GameIteration {
  private:
   // Steps 2 and 3: whether the bounds are as narrow as asked, or as rounding allows.
   bool certify() {
-    const Residual residual = sweep_all(
+    const Differences change = sweep_all(
         mdp_, mdp_.carry(discount_),
         Residual{value_.data(), backed_up_.data(), solution_.policy.data()}, settings_.threads);
     std::swap(value_, backed_up_);
     count_sweep();
-    distance_ = std::max({0.0, residual.greatest, -residual.least});
+    distance_ = std::max({0.0, change.greatest, -change.least});
     double size = 0.0;
     for (const double v : backed_up_) size = std::max(size, std::fabs(v));
     for (const double v : value_) size = std::max(size, std::fabs(v));

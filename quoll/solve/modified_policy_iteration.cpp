@@ -27,10 +27,9 @@ void modified_policy_iteration(Discounted& run) {
   while (!run.certify(rows)) {
     const double goal = std::max(share * run.span(), 0.5 * run.aim());
     for (unsigned k = 0; k < most_sweeps; ++k) {
-      const auto [least, greatest] = rows.sweep(run.discount(), run.value(), next, run.threads());
+      const double span = rows.sweep(run.discount(), run.value(), next, run.threads()).span();
       run.value().swap(next);
-      if (!run.count(run.value().size(), greatest - least)) break;
-      if (greatest - least <= goal) break;
+      if (!run.count(run.value().size(), span) || span <= goal) break;
     }
   }
 }

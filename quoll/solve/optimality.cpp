@@ -234,13 +234,13 @@ class Judge {
   std::vector<double> discounted_upper(const std::vector<double>& value) const {
     std::vector<double> bound(mdp_.states(), 0.0);
     std::vector<Action> greedy(mdp_.states(), no_action);
-    const Residual residual =
+    const Differences change =
         sweep_all(mdp_, discount_, Residual{value.data(), bound.data(), greedy.data()}, 1);
     double size = 0.0;
     for (const double v : value) size = std::max(size, std::fabs(v));
     for (const double v : bound) size = std::max(size, std::fabs(v));
     const SpanBounds more =
-        span_bounds(ModelScale(mdp_), discount_, residual.least, residual.greatest, size);
+        span_bounds(ModelScale(mdp_), discount_, change.least, change.greatest, size);
     for (State s = 0; s < mdp_.states(); ++s) {
       if (!mdp_.terminal(s)) bound[s] = add_up(bound[s], more.upper);
     }

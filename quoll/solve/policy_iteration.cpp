@@ -28,9 +28,9 @@ void evaluate_policy(const PolicyRows& rows, Discounted& run) {
   const Krylov krylov = improve_by_krylov(rows, run.discount(), 0.01, run.threads(), value);
   if (!run.count(krylov.products * value.size(), run.residual()) || krylov.reached) return;
   for (unsigned k = 0; k < sweeps_instead; ++k) {
-    const auto [least, greatest] = rows.sweep(run.discount(), value, next, run.threads());
+    const double span = rows.sweep(run.discount(), value, next, run.threads()).span();
     value.swap(next);
-    if (!run.count(value.size(), greatest - least) || greatest - least <= 0.5 * run.aim()) break;
+    if (!run.count(value.size(), span) || span <= 0.5 * run.aim()) break;
   }
 }
 

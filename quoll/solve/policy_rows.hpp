@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "quoll/base/parallel.hpp"
 #include "quoll/solve/sweep.hpp"
 
 namespace quoll {
@@ -55,56 +54,35 @@ class PolicyRows {
 
   /// to <- r_pi + discount * P_pi from, and the least and greatest difference to - from, ends not
   /// counted. The bits do not depend on `threads`.
-  std::pair<double, double> sweep(double discount, const std::vector<double>& from,
-                                  std::vector<double>& to, unsigned threads) const {
-    std::vector<std::pair<double, double>> differences(reward_.size() / part_size + 1,
-                                                       {infinity, -infinity});
-    for_parts(threads, [&](std::size_t part, State begin, State end) {
-      auto [least, greatest] = differences[part];
-      for (State s = begin; s < end; ++s) {
+  Differences sweep(double discount, const std::vector<double>& from, std::vector<double>& to,
+                    unsigned threads) const {
+    return over_parts(reward_.size(), threads, [&](StateRange range) {
+      Differences part;
+      for (State s = range.begin; s < range.end; ++s) {
         to[s] = backup(discount, from.data(), s);
-        if (empty(s)) continue;
-        least = std::min(least, to[s] - from[s]);
-        greatest = std::max(greatest, to[s] - from[s]);
+        if (!empty(s)) part.take(to[s] - from[s]);
       }
-      differences[part] = {least, greatest};
+      return part;
     });
-    std::pair<double, double> all{infinity, -infinity};
-    for (const auto& [least, greatest] : differences) {
-      all.first = std::min(all.first, least);
-      all.second = std::max(all.second, greatest);
-    }
-    return all;
   }
 
   /// to <- from - discount * P_pi from, the operator of the linear system.
   void leave_out(double discount, const std::vector<double>& from, std::vector<double>& to,
                  unsigned threads) const {
-    for_parts(threads, [&](std::size_t, State begin, State end) {
-      for (State s = begin; s < end; ++s) to[s] = from[s] - discount * mean(from.data(), s);
+    over_parts(reward_.size(), threads, [&](StateRange range) {
+      for (State s = range.begin; s < range.end; ++s) {
+        to[s] = from[s] - discount * mean(from.data(), s);
+      }
+      return Differences{};
     });
   }
 
  private:
-  static constexpr std::uint64_t part_size = 1 << 15;
-
   double mean(const double* value, State s) const {
     double sum = 0.0;
     const std::uint64_t end = place_[s] + length_[s];
     for (std::uint64_t i = place_[s]; i < end; ++i) sum += probability_[i] * value[next_[i]];
     return sum;
-  }
-
-  // work(part, begin, end) for parts of a fixed number of states.
-  template <class Work>
-  std::size_t for_parts(unsigned threads, const Work& work) const {
-    const std::uint64_t states = reward_.size();
-    const std::size_t parts = (states + part_size - 1) / part_size;
-    parallel_for(parts, threads, [&](std::size_t part) {
-      work(part, static_cast<State>(part * part_size),
-           static_cast<State>(std::min(states, (part + 1) * part_size)));
-    });
-    return parts;
   }
 
   const Mdp& mdp_;

@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "quoll/base/parallel.hpp"
 #include "quoll/model/mdp.hpp"
+#include "quoll/solve/parts.hpp"
 #include "quoll/solve/rounding.hpp"
 
 namespace quoll {
@@ -100,12 +100,6 @@ inline double backup(const Mdp& mdp, double discount, const double* value, std::
       mdp, [&](const auto& rows) { return rows.backup(mdp.carry(discount), value, choice); });
 }
 
-struct StateRange {
-  State begin;
-  State end;
-  bool backward = false;
-};
-
 template <class Rows, class Backend>
 void sweep_range(const Mdp& mdp, const Rows& rows, double discount, const double* value,
                  StateRange range, Backend& backend) {
@@ -187,40 +181,23 @@ struct Residual {
   const double* old_value;
   double* new_value;
   Action* policy;
-  double least = infinity;
-  double greatest = -infinity;
+  Differences differences{};
 
   void operator()(State s, double best, Action action) {
-    const double difference = best - old_value[s];
-    least = std::min(least, difference);
-    greatest = std::max(greatest, difference);
+    differences.take(best - old_value[s]);
     new_value[s] = best;
     policy[s] = action;
   }
 };
 
-/// A whole Jacobi sweep on several threads, each part with a copy of `backend`, a Residual. Parts
-/// are cut by number of states and minima and maxima do not depend on order, so the bits do not
-/// depend on `threads`.
+/// A whole Jacobi sweep on several threads, each part with a copy of `backend`, a Residual.
 template <class Backend>
-Residual sweep_all(const Mdp& mdp, double discount, const Backend& backend, unsigned threads) {
-  constexpr std::uint64_t part_size = 1 << 15;
-  const std::uint64_t states = mdp.states();
-  const std::size_t parts = (states + part_size - 1) / part_size;
-  std::vector<Backend> backends(parts, backend);
-  const auto work = [&](std::size_t part) {
-    const std::uint64_t begin = part * part_size;
-    const std::uint64_t end = std::min(states, begin + part_size);
-    sweep(mdp, discount, backend.old_value, {static_cast<State>(begin), static_cast<State>(end)},
-          backends[part]);
-  };
-  parallel_for(parts, threads, work);
-  Residual all = backend;
-  for (const Backend& part : backends) {
-    all.least = std::min(all.least, part.least);
-    all.greatest = std::max(all.greatest, part.greatest);
-  }
-  return all;
+Differences sweep_all(const Mdp& mdp, double discount, const Backend& backend, unsigned threads) {
+  return over_parts(mdp.states(), threads, [&](StateRange range) {
+    Backend part = backend;
+    sweep(mdp, discount, backend.old_value, range, part);
+    return part.differences;
+  });
 }
 
 }  // namespace quoll

@@ -34,22 +34,13 @@ class ValueIteration {
 
   // Steps 1 and 2 once; true = narrow enough, or stopped.
   bool sweep(std::vector<double>& backed_up) {
-    constexpr std::uint64_t part_size = 1 << 15;
-    const std::size_t parts = (mdp_.states() + part_size - 1) / part_size;
-    const Residual none{run_.value().data(), backed_up.data(), run_.policy().data()};
-    std::vector<Residual> residuals(parts, none);
-    parallel_for(parts, run_.threads(), [&](std::size_t part) {
-      const std::uint64_t begin = part * part_size;
-      const std::uint64_t end = std::min(mdp_.states(), begin + part_size);
-      const StateRange range{static_cast<State>(begin), static_cast<State>(end)};
-      with_rows(mdp_, [&](const auto& rows) { sweep_part(rows, range, residuals[part]); });
+    const Residual residual{run_.value().data(), backed_up.data(), run_.policy().data()};
+    const Differences all = over_parts(mdp_.states(), run_.threads(), [&](StateRange range) {
+      Residual part = residual;
+      with_rows(mdp_, [&](const auto& rows) { sweep_part(rows, range, part); });
+      return part.differences;
     });
-    Residual all = none;
-    for (const Residual& part : residuals) {
-      all.least = std::min(all.least, part.least);
-      all.greatest = std::max(all.greatest, part.greatest);
-    }
-    return run_.certify_with(backed_up, all.least, all.greatest);
+    return run_.certify_with(backed_up, all);
   }
 
  private:

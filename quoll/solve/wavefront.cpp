@@ -36,33 +36,68 @@ constexpr std::uint32_t band_layers = 4;
 }  // namespace
 
 // Step 1. States that cannot reach an end make a last band.
-Wavefront::Wavefront(const Mdp& mdp, std::vector<double>& value) : mdp_(mdp), value_(value) {
+Wavefront::Wavefront(const Mdp& mdp, std::vector<double>& value, unsigned threads)
+    : mdp_(mdp), value_(value), threads_(threads == 0 ? processors() : threads) {
   const std::vector<std::uint32_t> moves = moves_to_end(mdp);
   std::uint32_t deepest = 0;
   for (const std::uint32_t m : moves) deepest = m == unreached ? deepest : std::max(deepest, m);
   const auto layer_of = [&](State s) { return moves[s] == unreached ? deepest + 1 : moves[s]; };
   const auto left_out = [&](State s) { return mdp.terminal(s) || value[s] == -infinity; };
-  std::vector<std::uint64_t> layer_end(deepest + 3, 0);
+  layer_begin_.assign(deepest + 3, 0);
   for (State s = 0; s < mdp.states(); ++s) {
-    if (!left_out(s)) ++layer_end[layer_of(s) + 1];
+    if (!left_out(s)) ++layer_begin_[layer_of(s) + 1];
   }
-  for (std::size_t i = 1; i < layer_end.size(); ++i) layer_end[i] += layer_end[i - 1];
-  band_begin_.push_back(0);
-  for (std::size_t layer = band_layers; layer < layer_end.size(); layer += band_layers) {
-    if (layer_end[layer] > band_begin_.back()) band_begin_.push_back(layer_end[layer]);
+  for (std::size_t i = 1; i < layer_begin_.size(); ++i) layer_begin_[i] += layer_begin_[i - 1];
+  const std::size_t layers = deepest + 2;
+  band_layer_.push_back(0);
+  for (std::size_t end = band_layers; end < layers + band_layers; end += band_layers) {
+    const std::size_t layer = std::min(end, layers);
+    if (layer_begin_[layer] > layer_begin_[band_layer_.back()]) band_layer_.push_back(layer);
   }
-  if (layer_end.back() > band_begin_.back()) band_begin_.push_back(layer_end.back());
-  order_.resize(layer_end.back());
+  order_.resize(layer_begin_.back());
+  std::vector<std::uint64_t> place(layer_begin_.begin(), layer_begin_.end() - 1);
   for (State s = 0; s < mdp.states(); ++s) {
-    if (!left_out(s)) order_[layer_end[layer_of(s)]++] = s;
+    if (!left_out(s)) order_[place[layer_of(s)]++] = s;
   }
+  if (threads_ > 1 && !layers_are_free(moves)) threads_ = 1;
+}
+
+bool Wavefront::layers_are_free(const std::vector<std::uint32_t>& moves) const {
+  for (const State s : order_) {
+    for (std::uint64_t c = mdp_.choice_begin(s); c < mdp_.choice_end(s); ++c) {
+      for (std::uint64_t o = mdp_.outcome_begin(c); o < mdp_.outcome_end(c); ++o) {
+        const State next = mdp_.next(o);
+        if (next != s && moves[next] == moves[s]) return false;
+      }
+    }
+  }
+  return true;
 }
 
 void Wavefront::guess(double per_move) {
   for (std::size_t b = 0; b < bands(); ++b) {
     const double value = per_move * static_cast<double>(band_layers * (b + 1));
-    for (std::uint64_t i = band_begin_[b]; i < band_begin_[b + 1]; ++i) value_[order_[i]] = value;
+    const std::uint64_t end = layer_begin_[band_layer_[b + 1]];
+    for (std::uint64_t i = layer_begin_[band_layer_[b]]; i < end; ++i) value_[order_[i]] = value;
   }
+}
+
+// Step 4.
+bool Wavefront::move_window(double aim, const Count& count,
+                            const std::vector<std::vector<double>>& change, std::size_t& rear,
+                            std::size_t& front) const {
+  const auto change_of = [&](std::size_t band) {
+    double most = 0.0;
+    for (const std::vector<double>& member : change) most = std::max(most, member[band]);
+    return most;
+  };
+  double most = 0.0;
+  for (std::size_t b = rear; b < front; ++b) most = std::max(most, change_of(b));
+  const std::uint64_t swept = layer_begin_[band_layer_[front]] - layer_begin_[band_layer_[rear]];
+  if (!count(3 * swept, most)) return false;
+  while (rear < front && change_of(rear) <= aim) ++rear;
+  front = std::min(front + 1, bands());
+  return rear < bands();
 }
 
 // Steps 2 and 3.
@@ -77,7 +112,7 @@ bool Wavefront::iterate(double discount, double aim, std::vector<Action>& policy
 }
 
 bool wavefront(Discounted& run, std::size_t least_bands) {
-  Wavefront wave(run.mdp(), run.value());
+  Wavefront wave(run.mdp(), run.value(), run.threads());
   const auto count = [&](std::uint64_t updates, double change) {
     return run.count(updates, change);
   };

@@ -60,6 +60,49 @@ TEST(Parallel, CallsCanBeNested) {
   EXPECT_EQ(sum, 40);
 }
 
+TEST(Parallel, CallsFromManyThreadsAllEnd) {
+  std::atomic<int> sum{0};
+  std::vector<std::thread> callers;
+  for (int i = 0; i < 4; ++i) {
+    callers.emplace_back([&] {
+      for (int k = 0; k < 500; ++k) parallel_for(7, 3, [&](std::size_t) { ++sum; });
+    });
+  }
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_EQ(sum, 4 * 500 * 7);
+}
+
+// A running sum of both halves, which is wrong as soon as one is a step ahead.
+TEST(Team, GoesStepByStep) {
+  for (const unsigned threads : {0u, 1u, 2u, 5u}) {
+    std::vector<int> steps;
+    unsigned most = 0;
+    Team::gather(threads, [&](Team& team, unsigned member) {
+      if (member == 0) steps.assign(team.size(), 0), most = team.size();
+      for (int k = 0; k < 2000; ++k) {
+        team.meet(member);
+        ++steps[member];
+        team.meet(member);
+        for (const int step : steps) ASSERT_EQ(step, k + 1) << threads << " threads";
+      }
+    });
+    EXPECT_EQ(steps, std::vector<int>(most, 2000));
+    if (threads > 0) EXPECT_LE(most, threads);
+  }
+}
+
+TEST(Team, OneOfItsMembersMayGatherAlone) {
+  std::atomic<unsigned> members{0};
+  Team::gather(2, [&](Team&, unsigned) {
+    Team::gather(2, [&](Team& inner, unsigned) {
+      EXPECT_EQ(inner.size(), 1u);
+      ++members;
+    });
+  });
+  EXPECT_GE(members, 1u);
+  EXPECT_LE(members, 2u);
+}
+
 TEST(Parallel, AtLeastOneProcessor) {
   EXPECT_GE(processors(), 1u);
 }

@@ -1,15 +1,17 @@
 #pragma once
-// Tarjan 1972, "Depth-first search and linear graph algorithms", section 4: strongly connected
-// components in one depth-first search, here with a stack of its own so that a path of a million
-// states is no danger.
+// Gabow 2000, "Path-based depth-first search for strong and biconnected components", section 2:
+// strongly connected components in one depth-first search, here with a stack of its own for the
+// calls so that a path of a million states is no danger. Unlike Tarjan's, it knows at any time
+// which states of the path already form one component, so that a search for a large one can end
+// early.
 //
-//   visit(v): index(v) := low(v) := next number; push v
+//   visit(v): index(v) := next number; push v on S and index(v) on B
 //     for each edge v -> w:
-//       1. w not numbered:         visit(w); low(v) := min(low(v), low(w))
-//       2. else w without a component: low(v) := min(low(v), index(w))
-//     3. low(v) = index(v):        pop down to v: one component
+//       1. w not numbered:                visit(w)
+//       2. else w without a component:    pop B while its top > index(w)
+//     3. top of B = index(v):             pop B, and S down to v: one component
 //
-//   index -> index_, low -> low_, stack of vertices -> open_, stack of calls -> frames_
+//   index -> index_, S -> open_, B -> first_, stack of calls -> frames_
 
 #include <algorithm>
 #include <cstdint>
@@ -24,16 +26,12 @@ namespace quoll {
 /// Components of the graph whose edges are the outcomes of the choices c with use(c). Ends have
 /// none.
 template <class Use>
-class Tarjan {
+class PathSearch {
  public:
   /// Writes the number of each finished component into component[s]; states to be visited must
   /// stand at no_component.
-  Tarjan(const Mdp& mdp, Use use, std::vector<std::uint32_t>& component)
-      : mdp_(mdp),
-        use_(std::move(use)),
-        component_(component),
-        index_(mdp.states(), 0),
-        low_(mdp.states(), 0) {}
+  PathSearch(const Mdp& mdp, Use use, std::vector<std::uint32_t>& component)
+      : mdp_(mdp), use_(std::move(use)), component_(component), index_(mdp.states(), 0) {}
 
   /// Gives up as soon as a component is known to have more states than that.
   void stop_above(std::uint64_t states) { most_ = states; }
@@ -50,9 +48,8 @@ class Tarjan {
         leave(frame.state);
       } else if (index_[next] == 0) {
         enter(next);  // step 1
-      } else if (component_[next] == no_component && index_[next] < low_[frame.state]) {
-        low_[frame.state] = index_[next];  // step 2
-        stopped_ = frames_.size() > most_ && path_since(index_[next]) > most_;
+      } else if (component_[next] == no_component) {
+        join_since(index_[next]);  // step 2
       }
     }
   }
@@ -74,7 +71,8 @@ class Tarjan {
   };
 
   void enter(State s) {
-    index_[s] = low_[s] = ++numbered_;
+    index_[s] = ++numbered_;
+    first_.push_back({numbered_, open_.size()});
     open_.push_back(s);
     const std::uint64_t first = mdp_.terminal(s) ? mdp_.choice_end(s) : mdp_.choice_begin(s);
     frames_.push_back({s, first, mdp_.outcome_begin(first)});
@@ -90,40 +88,33 @@ class Tarjan {
     return false;
   }
 
-  // The number of states on the path to the newest that were met at or after that index: if one
-  // of index `first` follows the newest, they form one component.
-  std::uint64_t path_since(std::uint32_t first) const {
-    const auto earlier = [this](const Frame& frame, std::uint32_t index) {
-      return index_[frame.state] < index;
-    };
-    const auto at = std::lower_bound(frames_.begin(), frames_.end(), first, earlier);
-    return static_cast<std::uint64_t>(frames_.end() - at);
+  // What is open since the state of that index is one component.
+  void join_since(std::uint32_t index) {
+    while (first_.back().index > index) first_.pop_back();
+    stopped_ = open_.size() - first_.back().place > most_;
   }
 
   void leave(State s) {
     frames_.pop_back();
-    if (!frames_.empty()) {
-      std::uint32_t& low = low_[frames_.back().state];
-      low = std::min(low, low_[s]);
-    }
-    if (low_[s] != index_[s]) return;
-    State member = s;
-    std::uint64_t size = 0;
-    do {  // step 3
-      member = open_.back();
-      open_.pop_back();
-      component_[member] = count_;
-      ++size;
-    } while (member != s);
+    if (first_.back().index != index_[s]) return;
+    const std::size_t place = first_.back().place;  // step 3
+    first_.pop_back();
+    for (std::size_t i = place; i < open_.size(); ++i) component_[open_[i]] = count_;
+    open_.resize(place);
     ++count_;
-    stopped_ = stopped_ || size > most_;
   }
+
+  struct First {
+    std::uint32_t index;
+    std::size_t place;  // in open_
+  };
 
   const Mdp& mdp_;
   Use use_;
   std::vector<std::uint32_t>& component_;
-  std::vector<std::uint32_t> index_, low_;
+  std::vector<std::uint32_t> index_;
   std::vector<State> open_;
+  std::vector<First> first_;  // states of each component of the path
   std::vector<Frame> frames_;
   std::uint32_t numbered_ = 0;
   std::uint32_t count_ = 0;
