@@ -44,6 +44,11 @@ Quartiles quartiles(std::span<const double> values) {
   return {quantile(sorted, 0.25), quantile(sorted, 0.5), quantile(sorted, 0.75)};
 }
 
+bool retired(std::span<const Heat> heats) {
+  return heats.size() >= trial_seeds &&
+         std::none_of(heats.begin(), heats.end(), [](const Heat& heat) { return heat.good(); });
+}
+
 void summarise(RaceResult& race) {
   for (EntrantResult& entrant : race.entrants) summarise(entrant, race.cap_steps);
   for (EntrantResult& entrant : race.entrants) {

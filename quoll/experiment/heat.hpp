@@ -83,6 +83,11 @@ struct RaceResult {
   std::vector<EntrantResult> entrants;
 };
 
+/// An entrant who fails with each of so many first seeds runs no others: its median is the cap
+/// anyway.
+inline constexpr std::uint64_t trial_seeds = 5;
+bool retired(std::span<const Heat> heats);
+
 /// Fills in what follows from the heats. Heats that were interrupted are dropped.
 void summarise(RaceResult& race);
 

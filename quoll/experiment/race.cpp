@@ -155,21 +155,33 @@ class Field {
       const Result<TabularSetup> setup = resolve(entrants_[i].settings, *plan_.world);
       if (!setup) results_[i].refused = message(setup.error());
     }
-    for (std::uint64_t k = 0; k < plan_.seeds; ++k) {
-      for (std::size_t i = 0; i < entrants_.size(); ++i) {
-        if (results_[i].refused.empty()) tasks_.push_back({i, plan_.first_seed + k});
-      }
-    }
   }
 
+  /// The first seeds of all, then the others of those who did not fail with each of them.
   void run() {
-    parallel_for(tasks_.size(), plan_.threads, [this](std::size_t i) { run(tasks_[i]); });
+    const std::uint64_t trial = std::min(plan_.seeds, trial_seeds);
+    run(0, trial);
+    run(trial, plan_.seeds);
   }
 
   bool stopped() const { return stopped_; }
   std::vector<EntrantResult>& results() { return results_; }
 
  private:
+  // Seeds [begin, end), counted from the first.
+  void run(std::uint64_t begin, std::uint64_t end) {
+    std::vector<std::size_t> running;
+    for (std::size_t i = 0; i < entrants_.size(); ++i) {
+      if (results_[i].refused.empty() && !retired(results_[i].heats)) running.push_back(i);
+    }
+    std::vector<Task> tasks;
+    for (std::uint64_t k = begin; k < end; ++k) {
+      for (const std::size_t i : running) tasks.push_back({i, plan_.first_seed + k});
+    }
+    tasks_ = done_ + (plan_.seeds - begin) * running.size();
+    parallel_for(tasks.size(), plan_.threads, [&](std::size_t i) { run(tasks[i]); });
+  }
+
   void run(const Task& task) {
     const Entrant& entrant = entrants_[task.entrant];
     if (!going()) return;
@@ -208,7 +220,7 @@ class Field {
   bool going() {
     if (stopped_) return false;
     const std::lock_guard lock(mutex_);
-    if (hooks_.keep_going && !hooks_.keep_going(done_, tasks_.size())) stopped_ = true;
+    if (hooks_.keep_going && !hooks_.keep_going(done_, tasks_)) stopped_ = true;
     return !stopped_;
   }
 
@@ -216,9 +228,8 @@ class Field {
   std::vector<Entrant> entrants_;
   const RaceHooks& hooks_;
   std::vector<EntrantResult> results_;
-  std::vector<Task> tasks_;
   std::mutex mutex_;
-  std::uint64_t done_ = 0;
+  std::uint64_t done_ = 0, tasks_ = 0;
   std::atomic<bool> stopped_{false};
 };
 

@@ -184,7 +184,8 @@ std::string race_page(const RacePage& page) {
       one.seeds, one.first_seed, grouped(one.cap_steps));
   if (one.cap_seconds > 0.0) text += fmt::format(" or {}", seconds_text(one.cap_seconds));
   text +=
-      " has failed; it counts as that many steps, and as the time these take at its own speed. "
+      " has failed; it counts as that many steps, and as the time these take at its own speed. Who "
+      "fails with each of the first 5 seeds runs no others. "
       "Where the lecture's median failed, factors are lower bounds (`>`); where the entrant's did, "
       "upper bounds (`<`); where both did, there is none (`-`). Geometric means take bounds as "
       "they "

@@ -49,6 +49,17 @@ std::string notes(const RaceResult& race) {
         "machine (--cap-seconds)\n",
         seconds_text(race.cap_seconds));
   }
+  if (!race.interrupted) {
+    std::vector<std::string> words;
+    for (const EntrantResult& entrant : race.entrants) {
+      if (entrant.heats.size() < race.seeds && retired(entrant.heats))
+        words.push_back(entrant.word);
+    }
+    if (!words.empty()) {
+      text += fmt::format("failed with each of the first {} seeds and ran no others: {}\n",
+                          trial_seeds, fmt::join(words, ", "));
+    }
+  }
   for (const EntrantResult& entrant : race.entrants) {
     if (!entrant.refused.empty()) text += entrant.word + " does not run: " + entrant.refused + "\n";
   }

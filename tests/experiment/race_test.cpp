@@ -246,6 +246,25 @@ TEST(Race, StopsWhenAskedAndKeepsWhatIsDone) {
   EXPECT_EQ(race.entrants[1].heats.size(), 2u);
 }
 
+TEST(Race, WhoFailsWithEachOfTheFirstSeedsRunsNoOthers) {
+  const World world = corridor(8);
+  const Referee referee = referee_of(world);
+  for (const unsigned threads : {1u, 2u}) {
+    RacePlan plan{&world, &referee, RaceMode::start, 9, 1, {20, 0.0}, threads};
+    plan.caps.steps = 6;  // fewer than the way is long
+    RaceResult race = run_race(plan, *parse_entrants("q-learning", RaceMode::start));
+    EXPECT_FALSE(race.interrupted);
+    for (const EntrantResult& entrant : race.entrants) {
+      EXPECT_EQ(entrant.heats.size(), trial_seeds);
+      EXPECT_EQ(entrant.failures, trial_seeds);
+      EXPECT_EQ(entrant.steps.median, 6);
+    }
+    plan.caps.steps = 100'000;
+    race = run_race(plan, *parse_entrants("q-learning", RaceMode::start));
+    for (const EntrantResult& entrant : race.entrants) EXPECT_EQ(entrant.heats.size(), 9u);
+  }
+}
+
 TEST(Race, AWorldBeginsWhereOneSays) {
   const World world = *world_from(corridor(4), "c2");
   EXPECT_EQ(world.mdp->start().size(), 1u);
