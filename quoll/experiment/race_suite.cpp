@@ -13,7 +13,7 @@ constexpr SuiteWorld standard[] = {
     {"adventure", "adventure", "", "", "", 0.8, any, "the lecture's game"},
     {"river-swim", "river-swim", "variant=osband", "", "", 0.99, any, ""},
     {"combination-lock", "combination-lock", "length=20", "", "", 0.99, any, ""},
-    {"deep-sea", "deep-sea", "size=20", "", "", 0.99, any,
+    {"deep-sea", "deep-sea", "size=20 mapping_seed=1", "", "", 0.99, any,
      "cells off the triangle are no states here: 420 pairs, not 800"},
     {"cliff-walking", "cliff-walking", "", "", "", 0.99, any, ""},
     {"windy-grid", "windy-grid", "", "", "", 0.99, any, ""},

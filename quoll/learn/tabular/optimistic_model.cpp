@@ -3,7 +3,7 @@
 //
 //   upper  U(s,a) = Qmax if N(s,a) < m, else min(Qmax, r + b(s,a) + gamma sum P max_b U(s',b))
 //   lower  L(s,a) = Qmin where nothing was tried, else the optimum of the counted model
-//   1   act greedily on U, ties at random
+//   1   act greedily on U, ties at random; of things never tried, what was done last if it led on
 //   2   see (s, a, r, s'); count it
 //   3   plan U anew when N(s,a) reached m, and when it is half as much again as then
 //   4   the answer: the greedy policy of L
@@ -11,8 +11,9 @@
 // Without noise m = 1 and b = 0, and planning is a search from the present state for the nearest
 // thing not known (way_to_unknown.hpp), only when there is nothing new to try where it stands.
 // Under noise b is the empirical Bernstein bonus (optimistic_values.hpp). Qmax, Qmin:
-// value_range(). The bonus is a heuristic: U is no proof. Memory: 32 bytes for each (s, a, s')
-// seen, 16 a pair.
+// value_range(). To go on as before covers ground that single random choices do not (Dabney,
+// Ostrovski, Barreto 2021). The bonus is a heuristic: U is no proof. Memory: 32 bytes for each (s,
+// a, s') seen, 16 a pair.
 
 #include <algorithm>
 #include <cmath>
@@ -71,6 +72,7 @@ class OptimisticModel {
     // 2
     known_ += 1;
     count(model_, step);
+    if (step.next != step.state) last_ = static_cast<Action>(step.pair - begin_[step.state]);
     // 3
     const std::uint32_t n = model_.tried(step.pair);
     if (n >= replan_at_[step.pair]) {
@@ -117,6 +119,7 @@ class OptimisticModel {
     archive("pair_value", pair_value_);
     archive("way", way_);
     archive("taken", taken_);
+    archive("last", last_);
     archive("known", known_);
     archive("next_gaps", next_gaps_);
     archive("widest", widest_);
@@ -173,6 +176,9 @@ class OptimisticModel {
     std::uint32_t untried = 0;
     for (std::uint64_t p = begin_[s]; p < begin_[s + 1]; ++p) untried += model_.tried(p) == 0;
     if (untried == 0) return no_action;
+    if (!first_tie_ && last_ < table.actions(s) && model_.tried(begin_[s] + last_) == 0) {
+      return last_;
+    }
     std::uint32_t left = scale(tie, untried);
     for (Action a = 0; a < table.actions(s); ++a) {
       if (model_.tried(begin_[s] + a) == 0 && left-- == 0) return a;
@@ -191,7 +197,8 @@ class OptimisticModel {
   std::vector<double> value_, pair_value_;  // U
   std::vector<std::uint64_t> way_;          // pairs still to take, without noise
   std::uint64_t taken_ = 0;
-  bool stale_ = false;  // U is not up to date
+  Action last_ = no_action;  // if it led on
+  bool stale_ = false;       // U is not up to date
   std::uint64_t known_ = 0, next_gaps_ = 0;
   State widest_ = 0;
 };
