@@ -150,8 +150,7 @@ std::string heading(const Lesson& lesson, const World& world) {
 
 std::string rule_text(const Lesson& lesson, const Mdp& mdp) {
   if (lesson.entry->replay == nullptr) {
-    const LearnerEntry& entry = *lesson.entry;
-    return std::string(entry.formula.empty() ? entry.summary : entry.formula) +
+    return std::string(lesson.entry->formula) +
            (mdp.alternating() ? "\nThe turn passes: what follows counts negative.\n" : "\n");
   }
   const char* const sign = mdp.alternating() ? "-" : "+";  // the next move is the other player's

@@ -99,15 +99,26 @@ std::unique_ptr<Learner> make(const TabularSetup& setup) {
 }  // namespace
 
 const LearnerEntry dyna_q{
-    "dyna-q", "",          "Q-learning, and some backups of the counted model after each step",
-    true,     make<false>, nullptr};
+    .method = "dyna-q",
+    .rule = "",
+    .summary = "Q-learning, and some backups of the counted model after each step",
+    .sound = true,
+    .make = make<false>,
+    .replay = nullptr,
+    .formula =
+        "Q(s,a) := Q(s,a) + step size * (r + discount * max Q(s',.) - Q(s,a)), then for n pairs "
+        "tried before Q(x,u) := mean of r + discount * max Q(y,.) over their counts"};
 const LearnerEntry dyna_q_plus{
-    "dyna-q-plus",
-    "",
-    "Dyna-Q with a bonus for what was not tried for long: for worlds that change",
-    true,
-    make<true>,
-    nullptr,
-    {.off_policy = false}};
+    .method = "dyna-q-plus",
+    .rule = "",
+    .summary = "Dyna-Q with a bonus for what was not tried for long: for worlds that change",
+    .sound = true,
+    .make = make<true>,
+    .replay = nullptr,
+    .traits = {.off_policy = false},
+    .formula =
+        "Q(s,a) := Q(s,a) + step size * (r + discount * max Q(s',.) - Q(s,a)), then for n pairs "
+        "tried before Q(x,u) := mean of r + discount * max Q(y,.) over their counts + kappa * "
+        "sqrt(steps since x, u)"};
 
 }  // namespace quoll

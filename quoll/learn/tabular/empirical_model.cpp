@@ -69,12 +69,17 @@ std::unique_ptr<Learner> make(const TabularSetup& setup) {
 }  // namespace
 
 const LearnerEntry empirical_model{
-    "empirical-model",
-    "",
-    "counts what follows what and plans on the counts: the fewest samples where starts are chosen",
-    true,
-    make,
-    nullptr,
-    {.plans = true}};
+    .method = "empirical-model",
+    .rule = "",
+    .summary =
+        "counts what follows what and plans on the counts: the fewest samples where starts "
+        "are chosen",
+    .sound = true,
+    .make = make,
+    .replay = nullptr,
+    .traits = {.plans = true},
+    .formula =
+        "Q := the solution of Q(s,a) = sum of N(s,a,s') / N(s,a) * (r + discount * max Q(s',.)), "
+        "N = the counts so far"};
 
 }  // namespace quoll

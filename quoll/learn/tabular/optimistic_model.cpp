@@ -209,14 +209,19 @@ std::unique_ptr<Learner> make(const TabularSetup& setup) {
 
 }  // namespace
 
-const LearnerEntry optimistic_model{"optimistic-model",
-                                    "",
-                                    "goes where the counted model leaves most to hope for: R-max "
-                                    "without noise, bonuses under noise",
-                                    true,
-                                    make,
-                                    nullptr,
-                                    {.plans = true, .has_bounds = true, .directed = true},
-                                    needs_value_range};
+const LearnerEntry optimistic_model{
+    .method = "optimistic-model",
+    .rule = "",
+    .summary =
+        "goes where the counted model leaves most to hope for: R-max without noise, bonuses "
+        "under noise",
+    .sound = true,
+    .make = make,
+    .replay = nullptr,
+    .traits = {.plans = true, .has_bounds = true, .directed = true},
+    .check = needs_value_range,
+    .formula =
+        "U(s,a) := the most that is possible if N(s,a) < m, else mean of r + discount * max "
+        "U(s',.) over the counts + bonus; Q := the same without hope and bonus"};
 
 }  // namespace quoll

@@ -95,13 +95,16 @@ std::unique_ptr<Learner> make(const TabularSetup& setup) {
 }  // namespace
 
 const LearnerEntry posterior_sampling{
-    "posterior-sampling",
-    "",
-    "acts by the optimal policy of a model drawn from what experience leaves possible",
-    true,
-    make,
-    nullptr,
-    {.plans = true, .directed = true},
-    needs_value_range};
+    .method = "posterior-sampling",
+    .rule = "",
+    .summary = "acts by the optimal policy of a model drawn from what experience leaves possible",
+    .sound = true,
+    .make = make,
+    .replay = nullptr,
+    .traits = {.plans = true, .directed = true},
+    .check = needs_value_range,
+    .formula =
+        "Q(s,a) := mean of r + discount * max Q(s',.) over the counts of (s, a); acts by the "
+        "solution for P(.|s,a) drawn from Dirichlet(N(s,a,.) + 1/S)"};
 
 }  // namespace quoll

@@ -166,11 +166,14 @@ std::unique_ptr<Learner> make(const TabularSetup& setup) {
 }  // namespace
 
 const LearnerEntry prioritised_sweeping{
-    "prioritised-sweeping",
-    "",
-    "backs up the counted model where values changed most, and from there backwards",
-    true,
-    make,
-    nullptr};
+    .method = "prioritised-sweeping",
+    .rule = "",
+    .summary = "backs up the counted model where values changed most, and from there backwards",
+    .sound = true,
+    .make = make,
+    .replay = nullptr,
+    .formula =
+        "Q(s,a) := mean of r + discount * max Q(s',.) over the counts of (s, a), then the same "
+        "for the n pairs whose followers changed most"};
 
 }  // namespace quoll
