@@ -21,11 +21,11 @@ class CountedModel {
  public:
   /// One kind of outcome of a pair.
   struct Outcome {
-    State next = the_end;
-    bool turn_passes = false;
-    std::uint32_t count = 0;
     double reward_sum = 0.0;
+    State next = the_end;
+    std::uint32_t count = 0;
     std::uint32_t link = none;  // of the pair's next outcome
+    bool turn_passes = false;
 
     double mean_reward() const { return reward_sum / count; }
     bool gave(double reward) const {
@@ -41,7 +41,10 @@ class CountedModel {
   };
 
   CountedModel() = default;
-  explicit CountedModel(std::uint64_t pairs) : first_(pairs, none), tried_(pairs, 0) {}
+  /// Room for one outcome of each pair is reserved.
+  explicit CountedModel(std::uint64_t pairs) : first_(pairs, none), tried_(pairs, 0) {
+    outcomes_.reserve(pairs);
+  }
 
   std::uint64_t pairs() const { return first_.size(); }
   /// Kinds of outcomes seen, of all pairs.
@@ -65,7 +68,7 @@ class CountedModel {
       at = &outcome.link;
     }
     *at = static_cast<std::uint32_t>(outcomes_.size());
-    outcomes_.push_back({next, turn_passes, 1, reward, none});
+    outcomes_.push_back({reward, next, 1, none, turn_passes});
     return true;
   }
 

@@ -38,6 +38,7 @@ class EmpiricalModel {
       next_plan_ = step.number + 1 + step.number * 3 / 10;
       store(plan(model_, table.begin(), planning_), table);
     }
+    if (!step.watched) return {};
     // The table stays as it is between plans: what is told is how far off it is.
     const double target =
         model_.backup(step.pair, planning_.discount, [&](State s) { return table.best(s); });

@@ -23,6 +23,7 @@ struct Step {
   std::uint32_t n = 1;             ///< visits of the pair, this one included
   std::uint64_t number = 0;        ///< of the step, from 1
   Action next_action = no_action;  ///< looks_ahead only: what will be done in `next`
+  bool watched = true;             ///< somebody looks at the Change
 };
 
 /// How the value of the pair just left was changed, for whoever watches.

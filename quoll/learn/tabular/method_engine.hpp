@@ -152,6 +152,7 @@ class MethodLearner final : public Learner {
     step.terminated = landed.terminated;
     step.truncated = ++walk_.episode_step == episode_steps_ || landed.truncated;
     step.number = ++walk_.step;
+    step.watched = told != nullptr || stability_.watching();
     // 2. Count the visit and learn from it.
     step.n = table_.visit(step.pair);
     if constexpr (M::looks_ahead) {

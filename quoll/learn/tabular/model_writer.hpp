@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 #include "quoll/learn/tabular/counted_model.hpp"
@@ -13,9 +14,12 @@ namespace quoll {
 /// Writes choice after choice, state after state. The state after the last is the end of all ways.
 class ModelWriter {
  public:
-  explicit ModelWriter(std::uint64_t states) : end_(static_cast<State>(states)) {
+  /// For about so many choices.
+  ModelWriter(std::uint64_t states, std::uint64_t choices) : end_(static_cast<State>(states)) {
     arrays_.choice_begin.reserve(states + 2);
-    arrays_.outcome_begin.push_back(0);
+    arrays_.next.reserve(choices);
+    arrays_.reward.reserve(choices);
+    arrays_.action.reserve(choices);
   }
 
   void begin_state() {
@@ -52,17 +56,31 @@ class ModelWriter {
 
   /// A choice outcome by outcome; `next` may be the_end. Then finish_choice() with its mean reward.
   void outcome(State next, double probability) {
+    if (probability != 1.0 && arrays_.probability.empty()) {
+      arrays_.probability.assign(arrays_.next.size(), 1.0);
+    }
+    if (probability != 1.0 || !arrays_.probability.empty()) {
+      arrays_.probability.push_back(probability);
+    }
     arrays_.next.push_back(next == the_end ? end_ : next);
-    arrays_.probability.push_back(probability);
   }
   void finish_choice(double reward) {
     arrays_.reward.push_back(reward);
     arrays_.action.push_back(next_action_++);
     most_actions_ = std::max(most_actions_, next_action_);
-    arrays_.outcome_begin.push_back(arrays_.next.size());
+    if (single_ && arrays_.next.size() != arrays_.reward.size()) begin_outcome_begin();
+    if (!single_) arrays_.outcome_begin.push_back(arrays_.next.size());
   }
 
  private:
+  // Until now each choice had one outcome.
+  void begin_outcome_begin() {
+    single_ = false;
+    arrays_.outcome_begin.resize(arrays_.reward.size());
+    std::iota(arrays_.outcome_begin.begin(), arrays_.outcome_begin.end(), std::uint64_t{0});
+  }
+
+  bool single_ = true;
   State end_;
   Action next_action_ = 0, most_actions_ = 0;
   MdpArrays arrays_;

@@ -15,7 +15,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 Result<Mdp> model_of(const CountedModel& model, const std::vector<std::uint64_t>& begin,
                      const Planning& planning) {
   const std::uint64_t states = begin.size() - 1;
-  ModelWriter writer(states);
+  ModelWriter writer(states, begin.back() + (planning.discount == 1.0 ? states : 0));
   for (State s = 0; s < states; ++s) {
     writer.begin_state();
     bool stuck = true, unknown = false;
@@ -63,14 +63,16 @@ Plan plan(const CountedModel& model, const std::vector<std::uint64_t>& begin,
   if (!mdp) return result;
   SolveSettings settings;
   settings.width = planning.width;
-  const Result<Solution> solution = solve(*mdp, settings, planning.method);
+  Result<Solution> solution = solve(*mdp, settings, planning.method);
   if (!solution) return result;
   result.solved = true;
-  result.lower.assign(solution->lower.begin(), solution->lower.begin() + states);
-  result.upper.assign(solution->upper.begin(), solution->upper.begin() + states);
   result.policy = policy_of(model, begin, planning, *solution);
+  result.lower = std::move(solution->lower);
+  result.upper = std::move(solution->upper);
+  result.lower.pop_back();  // of the end of all ways
+  result.upper.pop_back();
   for (State s = 0; s < states; ++s) {
-    result.state_value[s] = (solution->lower[s] + solution->upper[s]) / 2;
+    result.state_value[s] = (result.lower[s] + result.upper[s]) / 2;
   }
   for (std::uint64_t pair = 0; pair < begin.back(); ++pair) {
     if (model.tried(pair) >= planning.known_after) {

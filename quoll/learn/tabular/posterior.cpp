@@ -58,7 +58,7 @@ std::vector<double> Posterior::draw(const CountedModel& model,
                                     const std::vector<std::uint64_t>& begin,
                                     const Planning& planning, Rng& dice) const {
   const std::uint64_t states = begin.size() - 1;
-  ModelWriter writer(states);
+  ModelWriter writer(states, begin.back());
   std::vector<Drawn> drawn;
   for (State s = 0; s < states; ++s) {
     writer.begin_state();
