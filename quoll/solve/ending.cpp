@@ -1,6 +1,7 @@
 #include "quoll/solve/ending.hpp"
 
 #include <cstddef>
+#include <utility>
 
 #include "quoll/model/graph.hpp"
 
@@ -29,7 +30,7 @@ class Search {
       while (drop_unsure()) {
       }
     }
-    return out_;
+    return std::move(out_);
   }
 
  private:

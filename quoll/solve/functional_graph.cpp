@@ -108,6 +108,7 @@ class Evaluator {
     for (; path_.back() != first; path_.pop_back()) back_up(path_.back());
     path_.pop_back();
     out_.order.push_back(first);
+    out_.turns.push_back(first);
   }
 
   // V = turn + decay * V.
@@ -242,56 +243,30 @@ bool raise_until_inductive(const Mdp& mdp, const Discount& discount, std::span<c
 }
 
 bool lower_until_inductive(const Mdp& mdp, const Discount& discount, std::span<const Action> policy,
-                           std::span<const State> order, const std::vector<double>& upper,
-                           std::vector<double>& lower) {
-  const auto excess = [&](State s) {
-    const std::uint64_t c = mdp.choice_begin(s) + policy[s];
-    return add_up(lower[s], -backup_down(mdp.reward(c), discount, lower[mdp.next(c)]));
-  };
-  const auto largest_excess = [&] {
+                           GraphValues& values) {
+  std::vector<double>& lower = values.lower;
+  const auto largest_excess = [&](std::span<const State> states) {
     double largest = 0.0;
-    for (const State s : order) largest = std::max(largest, excess(s));
+    for (const State s : states) {
+      const std::uint64_t c = mdp.choice_begin(s) + policy[s];
+      const double after = backup_down(mdp.reward(c), discount, lower[mdp.next(c)]);
+      largest = std::max(largest, add_up(lower[s], -after));
+    }
     return largest;
   };
   if (discount.none()) return true;
-  const double largest = largest_excess();
+  const double largest = largest_excess(values.turns);
   if (!(largest > 0.0)) return true;
   double size = 0.0;
-  for (const State s : order) size = std::max(size, std::fabs(lower[s]));
+  for (const State s : values.order) size = std::max(size, std::fabs(lower[s]));
   const double rest = next_down(1.0 - discount.upper);
   if (!(rest > 0.0) || !(size < infinity)) return false;
   const double first = next_up(largest / rest);
   const double constant = next_up((largest + 0x1p-50 * (size + first)) / rest);
-  for (const State s : order) {
-    if (lower[s] < upper[s]) lower[s] = -add_up(-lower[s], constant);
+  for (const State s : values.order) {
+    if (lower[s] < values.upper[s]) lower[s] = -add_up(-lower[s], constant);
   }
-  return !(largest_excess() > 0.0);
-}
-
-std::optional<TwoRewards> two_rewards(const Mdp& mdp) {
-  std::optional<double> move, end;
-  for (State s = 0; s < mdp.states(); ++s) {
-    if (mdp.terminal(s)) continue;
-    for (std::uint64_t c = mdp.choice_begin(s); c < mdp.choice_end(s); ++c) {
-      std::optional<double>& kind = mdp.terminal(mdp.next(c)) ? end : move;
-      if (!kind) kind = mdp.reward(c);
-      if (*kind != mdp.reward(c)) return std::nullopt;
-    }
-  }
-  const double only = move ? *move : 0.0;
-  return TwoRewards{only, end ? *end : only};
-}
-
-// With d moves to the end, V(d) = m (1 - g^(d-1)) / (1 - g) + g^(d-1) e, and never ending is worth
-// m / (1 - g): V falls with d if e (1 - g) > m. At discount 1, V(d) = m (d - 1) + e falls if m < 0.
-bool fewer_moves_win(const TwoRewards& rewards, const Discount& discount, bool strictly) {
-  const double move = Meant(rewards.move).upper;
-  if (discount.none()) return strictly ? move < 0.0 : move <= 0.0;
-  const double rest = 1.0 - (rewards.end >= 0.0 ? discount.upper : discount.lower);
-  const double gain = rewards.end * rest;
-  const double doubt = 4.0 * half_ulp * std::fabs(gain) + 1e-300;
-  if (gain - doubt > move) return true;
-  return !strictly && rewards.end == 0.0 && move <= 0.0;
+  return !(largest_excess(values.order) > 0.0);
 }
 
 }  // namespace quoll

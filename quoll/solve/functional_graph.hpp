@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +19,7 @@ struct GraphValues {
   std::vector<double> lower, upper;
   std::vector<State> order;  ///< the states evaluated, each after its successor (but cycles)
   std::vector<std::uint32_t> steps;  ///< moves until an end, or never
+  std::vector<State> turns;          ///< one state of each cycle: all others follow from their next
 };
 
 /// Evaluates the policy of a deterministic model. `live[s]` = 0 marks non-terminal states that are
@@ -39,23 +39,11 @@ std::uint64_t improve_policy(const Mdp& mdp, const GraphValues& values, const Di
 bool raise_until_inductive(const Mdp& mdp, const Discount& discount, std::span<const State> order,
                            std::vector<double>& upper, unsigned sweeps = 64);
 
-/// Lowers `lower`, bounds on the policy's value, until T_pi lower >= lower holds with outward
-/// rounding in the states of `order`, by one constant in all states where it is below `upper`. Does
-/// nothing at discount 1, where a policy's bounds follow one from the other along its way to an
-/// end. False: not achieved; the bounds are true all the same.
+/// Lowers `lower` of `values`, just evaluated, until T_pi lower >= lower holds with outward
+/// rounding in the states of its `order`, by one constant in all states where it is below `upper`.
+/// Does nothing at discount 1, where a policy's bounds follow one from the other along its way to
+/// an end. False: not achieved; the bounds are true all the same.
 bool lower_until_inductive(const Mdp& mdp, const Discount& discount, std::span<const Action> policy,
-                           std::span<const State> order, const std::vector<double>& upper,
-                           std::vector<double>& lower);
-
-/// The rewards of a deterministic model that has only two: one for each move to a state that is no
-/// end, one for each move to an end. Such a model is solved by counting moves.
-struct TwoRewards {
-  double move = 0.0;
-  double end = 0.0;
-};
-std::optional<TwoRewards> two_rewards(const Mdp& mdp);
-/// Whether with these rewards fewer moves to an end are always at least as good (strictly: always
-/// better), and never ending is not better than any of it.
-bool fewer_moves_win(const TwoRewards& rewards, const Discount& discount, bool strictly);
+                           GraphValues& values);
 
 }  // namespace quoll

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "quoll/solve/ending.hpp"
+#include "quoll/solve/fewest_moves.hpp"
 #include "quoll/solve/functional_graph.hpp"
 #include "quoll/solve/methods.hpp"
 
@@ -13,7 +13,7 @@
 //
 //   1  if the model has two rewards only and fewer moves win: d(s) = moves to an end (breadth
 //   first);
-//      pi(s) = first action with d(s') = d(s) - 1
+//      pi(s) = first action with d(s') = d(s) - 1; if all can end, steps 4 and 5 once for each d
 //   2  else if no move gains (r <= 0): take states by falling label V from the ends backwards;
 //      V(p) <- max(V(p), r + g V(s)) for each move p -> s                      (label setting)
 //   3  else sweep to and fro: V(s) <- max_a r + g V(s'), from a lower bound    (label correcting)
@@ -178,21 +178,27 @@ class LabelSettingSolver : public Solver {
     Solution solution;
     solution.method = "label-setting";
     solution.policy.assign(mdp.states(), no_action);
+    const std::optional<TwoRewards> rewards = two_rewards(mdp);
+    const bool by_moves = rewards && fewer_moves_win(*rewards, Discount(*discount), false);
+    if (by_moves && solve_by_moves(mdp, *rewards, Discount(*discount), solution)) {  // step 1
+      solution.discount = *discount;
+      conclude(mdp, solution, settings.width);
+      return solution;
+    }
     std::vector<std::uint8_t> live = live_states(mdp, *discount);
     const std::vector<bool> unknown = *discount == 1.0 ? unknown_states(mdp) : std::vector<bool>();
     for (std::size_t s = 0; s < unknown.size(); ++s) {
       if (unknown[s]) live[s] = 0;
     }
-    for (State s = 0; s < mdp.states(); ++s) {
-      if (!mdp.terminal(s)) solution.policy[s] = 0;
-    }
-    const std::optional<TwoRewards> rewards = two_rewards(mdp);
-    if (rewards && fewer_moves_win(*rewards, Discount(*discount), false)) {
-      solution.policy = find_ending(mdp).policy;  // step 1
-    } else if (no_move_gains(mdp)) {
-      LabelSetting(mdp, *discount).run(live, solution);
-    } else {
-      correct_labels(mdp, settings, *discount, live, solution);
+    if (!by_moves) {
+      for (State s = 0; s < mdp.states(); ++s) {
+        if (!mdp.terminal(s)) solution.policy[s] = 0;
+      }
+      if (no_move_gains(mdp)) {
+        LabelSetting(mdp, *discount).run(live, solution);
+      } else {
+        correct_labels(mdp, settings, *discount, live, solution);
+      }
     }
     improve_to_optimum(mdp, settings, *discount, live, solution);
     leave_unknown(mdp, unknown, settings.width, solution);

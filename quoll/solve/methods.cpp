@@ -139,8 +139,8 @@ void improve_to_optimum(const Mdp& mdp, const SolveSettings& settings, double di
   }
   ++solution.sweeps;
   solution.backups += values.order.size();
-  solution.lower = values.lower;
-  lower_until_inductive(mdp, factor, solution.policy, values.order, values.upper, solution.lower);
+  lower_until_inductive(mdp, factor, solution.policy, values);
+  solution.lower = std::move(values.lower);
   solution.upper = std::move(values.upper);
   if (!raise_until_inductive(mdp, factor, values.order, solution.upper)) {
     for (const State s : values.order) solution.upper[s] = infinity;

@@ -9,6 +9,7 @@
 #include "quoll/solve/backward.hpp"
 #include "quoll/solve/ending.hpp"
 #include "quoll/solve/evaluate.hpp"
+#include "quoll/solve/fewest_moves.hpp"
 #include "quoll/solve/functional_graph.hpp"
 #include "quoll/solve/induced.hpp"
 #include "quoll/solve/solver.hpp"
