@@ -31,18 +31,20 @@ class AnySource {
   }
 
   Landed step(std::uint64_t pair, State state, Action action, std::uint64_t draw) {
-    return std::visit(
-        [&](auto& source) {
-          const auto landing = source.stepper()(pair, state, action, draw);
-          Landed landed{landing.next, double{landing.reward}, 0.0, landing.terminated, false};
-          landed.carry = landed.terminated ? 0.0 : discount_;
-          if constexpr (requires { landing.turn_passes; }) {
-            landed.truncated = landing.truncated;
-            if (landing.turn_passes) landed.carry = -landed.carry;
-          }
-          return landed;
-        },
-        source_);
+    const auto take = [&](auto& source) {
+      const auto landing = source.stepper()(pair, state, action, draw);
+      Landed landed{landing.next, double{landing.reward}, 0.0, landing.terminated, false};
+      landed.carry = landed.terminated ? 0.0 : discount_;
+      if constexpr (requires { landing.turn_passes; }) {
+        landed.truncated = landing.truncated;
+        if (landing.turn_passes) landed.carry = -landed.carry;
+      }
+      return landed;
+    };
+    // What std::visit finds by a call, for the tables without one.
+    if (Fixed* const fixed = std::get_if<Fixed>(&source_)) return take(*fixed);
+    if (Chance* const chance = std::get_if<Chance>(&source_)) return take(*chance);
+    return take(std::get<EnvironmentSource>(source_));
   }
   template <class Visits>
   State start(StartStates& starts, Rng& rng, const Visits& visits) {

@@ -191,6 +191,8 @@ class MethodLearner final : public Learner {
   Chosen choose(State state, const ChoiceDraws& draws) {
     if constexpr (requires { method_.choose(table_, state, draws, walk_.step); }) {
       return method_.choose(table_, state, draws, walk_.step);
+    } else if (exploration_.kind == Exploration::Kind::uniform) {  // asks for no values
+      return {table_.rows().any({0, 0, table_.actions(state)}, draws.action()), true};
     } else {
       return exploration_.choose(table_.rows(), table_.values(), table_.visits(), state,
                                  table_.row(state), draws, walk_.step);
@@ -239,7 +241,10 @@ class MethodLearner final : public Learner {
       progress_.halt = LearnProgress::Halt::diverged;
       progress_.impossible = {true, step.number, step.state, step.action, value, 0.0};
     }
-    if (!stability_.watching()) return;
+    if (stability_.watching()) watch_stability(step, value, old, learned);
+  }
+
+  void watch_stability(const Step& step, double value, double old, const Change& learned) {
     if (stability_.counts_met()) {
       for (const State s : {step.state, step.terminated ? step.state : step.next}) {
         if (std::exchange(met_[s], std::uint8_t{1})) continue;

@@ -28,7 +28,7 @@ class ReverseReplay {
   static constexpr bool looks_ahead = false;
 
   ReverseReplay(const TabularSetup& setup, const ValueTable<V>& table)
-      : step_size_(setup.step_size), begin_(table.begin()) {
+      : step_size_(setup.step_size), begin_(table.begin()), episode_(64) {
     constexpr double least = 64.0, most = 65'536.0;
     const double horizons = setup.discount < 1.0 ? 4.0 / (1.0 - setup.discount) : most;
     block_ = static_cast<std::size_t>(std::clamp(horizons, least, most));
@@ -36,21 +36,32 @@ class ReverseReplay {
 
   // 1, 2
   Change learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {
-    episode_.push_back(PastStep::of(step, draws));
-    const Change learned = update(episode_.back(), table);
-    if (episode_.size() == block_) end_episode(table);
+    PastStep& e = episode_[length_++];
+    e = PastStep::of(step, draws);
+    const Change learned = update(e, table);
+    if (length_ == episode_.size()) make_room(table);
     return learned;
   }
 
   // 3
   void end_episode(ValueTable<V>& table) {
-    for (auto e = episode_.rbegin(); e != episode_.rend(); ++e) update(*e, table);
-    episode_.clear();
+    while (length_ > 0) update(episode_[--length_], table);
   }
 
-  void persist(Archive& archive) { persist_steps(archive, episode_, begin_, block_); }
+  void persist(Archive& archive) {
+    const std::size_t room = episode_.size();
+    episode_.resize(length_);
+    persist_steps(archive, episode_, begin_, block_);
+    length_ = episode_.size();
+    episode_.resize(std::min(block_, std::max(room, 2 * length_)));
+  }
 
  private:
+  void make_room(ValueTable<V>& table) {
+    if (length_ == block_) return end_episode(table);
+    episode_.resize(std::min(block_, 2 * length_));
+  }
+
   Change update(const PastStep& e, ValueTable<V>& table) {
     const double best_next = table.best_after(e.carry, e.next);
     const double target = e.reward + e.carry * best_next;
@@ -59,8 +70,8 @@ class ReverseReplay {
 
   StepSize step_size_;
   const std::vector<std::uint64_t>& begin_;
-  std::size_t block_ = 0;
-  std::vector<PastStep> episode_;
+  std::size_t block_ = 0, length_ = 0;
+  std::vector<PastStep> episode_;  // the steps since the last replay, and room for more
 };
 
 }  // namespace

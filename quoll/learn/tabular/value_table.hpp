@@ -2,6 +2,7 @@
 // The table of a method with memory: a value and a count per pair, rows without padding. Whatever
 // changes a value goes through set(), so that watching for stability misses nothing.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -34,8 +35,17 @@ class ValueTable {
   std::uint32_t visits(std::uint64_t pair) const { return visits_[pair]; }
   RaggedRows<Value> rows() const { return {begin_.data()}; }
   RowView<Value> row(State s) const { return rows().view(values_.data(), s); }
-  /// max_a Q(s, a).
-  double best(State s) const { return double{row(s).best}; }
+  /// max_a Q(s, a); 0 without actions. The first four are compared without a branch: how many
+  /// actions the state of a random walk has is nothing a processor can guess.
+  double best(State s) const {
+    const Value* const q = values_.data() + begin_[s];
+    const std::uint64_t n = begin_[s + 1] - begin_[s];
+    if (n == 0) return 0.0;
+    const auto at = [&](std::uint64_t a) { return q[std::min(a, n - 1)]; };
+    Value best = larger(larger(at(0), at(1)), larger(at(2), at(3)));
+    for (std::uint64_t a = 4; a < n; ++a) best = larger(best, q[a]);
+    return double{best};
+  }
 
   /// max_b Q(next, b), or 0 where `carry` says that nothing follows.
   double best_after(double carry, State next) const { return carry == 0.0 ? 0.0 : best(next); }
@@ -76,6 +86,8 @@ class ValueTable {
   }
 
  private:
+  static Value larger(Value a, Value b) { return b > a ? b : a; }
+
   std::vector<std::uint64_t> begin_;
   std::vector<Value> values_;
   std::vector<std::uint32_t> visits_;
