@@ -3,7 +3,8 @@
 //
 //   upper  U(s,a) = Qmax if N(s,a) < m, else min(Qmax, r + b(s,a) + gamma sum P max_b U(s',b))
 //   lower  L(s,a) = Qmin where nothing was tried, else the optimum of the counted model
-//   1   act greedily on U, ties at random; of things never tried, what was done last if it led on
+//   1   act greedily on U, ties at random; of things never tried, what was done last if it led on,
+//       else what was done least, in any state
 //   2   see (s, a, r, s'); count it
 //   3   plan U anew when N(s,a) reached m, and when it is half as much again as then
 //   4   the answer: the greedy policy of L
@@ -42,6 +43,7 @@ class OptimisticModel {
         optimism_(optimism_of(setup)),
         model_(table.pairs()),
         search_(table.states()),
+        done_(most_actions(table), 0),
         replan_at_(table.pairs(), optimism_.known_after),
         value_(table.states(), optimism_.most),
         pair_value_(table.pairs(), optimism_.most) {}
@@ -72,7 +74,9 @@ class OptimisticModel {
     // 2
     known_ += 1;
     count(model_, step);
-    if (step.next != step.state) last_ = static_cast<Action>(step.pair - begin_[step.state]);
+    const auto action = static_cast<Action>(step.pair - begin_[step.state]);
+    if (step.next != step.state) last_ = action;
+    ++done_[action];
     // 3
     const std::uint32_t n = model_.tried(step.pair);
     if (n >= replan_at_[step.pair]) {
@@ -112,7 +116,7 @@ class OptimisticModel {
 
   void persist(Archive& archive) {
     model_.persist(archive, begin_.size() - 1);
-    const std::size_t states = value_.size(), pairs = pair_value_.size();
+    const std::size_t states = value_.size(), pairs = pair_value_.size(), actions = done_.size();
     archive("stale", stale_);
     archive("replan_at", replan_at_);
     archive("value", value_);
@@ -120,22 +124,30 @@ class OptimisticModel {
     archive("way", way_);
     archive("taken", taken_);
     archive("last", last_);
+    archive("done", done_);
     archive("known", known_);
     archive("next_gaps", next_gaps_);
     archive("widest", widest_);
     bool fits = widest_ < states && value_.size() == states && pair_value_.size() == pairs &&
-                replan_at_.size() == pairs && taken_ <= way_.size();
+                replan_at_.size() == pairs && taken_ <= way_.size() && done_.size() == actions;
     if (fits) return;
     archive.fail("values of another world");
     value_.resize(states);
     pair_value_.resize(pairs);
     replan_at_.resize(pairs);
+    done_.resize(actions);
     way_.clear();
     taken_ = 0;
     widest_ = starts_.front();
   }
 
  private:
+  static std::size_t most_actions(const ValueTable<double>& table) {
+    Action most = 0;
+    for (State s = 0; s < table.states(); ++s) most = std::max(most, table.actions(s));
+    return most;
+  }
+
   static Optimism optimism_of(const TabularSetup& setup) {
     Optimism optimism;
     const MethodSettings& given = setup.of_method;
@@ -172,16 +184,23 @@ class OptimisticModel {
     return rows.pick(pair_value_.data(), s, row, tie);
   }
 
+  // What was done last, if it led on, else one of those done least so far, anywhere.
   Action any_untried(const ValueTable<double>& table, State s, std::uint32_t tie) const {
-    std::uint32_t untried = 0;
-    for (std::uint64_t p = begin_[s]; p < begin_[s + 1]; ++p) untried += model_.tried(p) == 0;
-    if (untried == 0) return no_action;
-    if (!first_tie_ && last_ < table.actions(s) && model_.tried(begin_[s] + last_) == 0) {
-      return last_;
+    const auto untried = [&](Action a) { return model_.tried(begin_[s] + a) == 0; };
+    const auto times = [&](Action a) { return first_tie_ ? 0 : done_[a]; };
+    const Action actions = table.actions(s);
+    if (!first_tie_ && last_ < actions && untried(last_)) return last_;
+    std::uint64_t least = ~std::uint64_t{0};
+    std::uint32_t ties = 0;
+    for (Action a = 0; a < actions; ++a) {
+      if (!untried(a) || times(a) > least) continue;
+      ties = times(a) < least ? 1 : ties + 1;
+      least = times(a);
     }
-    std::uint32_t left = scale(tie, untried);
-    for (Action a = 0; a < table.actions(s); ++a) {
-      if (model_.tried(begin_[s] + a) == 0 && left-- == 0) return a;
+    if (ties == 0) return no_action;
+    std::uint32_t left = scale(tie, ties);
+    for (Action a = 0; a < actions; ++a) {
+      if (untried(a) && times(a) == least && left-- == 0) return a;
     }
     return no_action;
   }
@@ -193,11 +212,12 @@ class OptimisticModel {
   Optimism optimism_;
   CountedModel model_;
   WayToUnknown search_;
+  std::vector<std::uint64_t> done_;         // per action: how often, in any state
   std::vector<std::uint32_t> replan_at_;    // visits of each pair
   std::vector<double> value_, pair_value_;  // U
   std::vector<std::uint64_t> way_;          // pairs still to take, without noise
   std::uint64_t taken_ = 0;
-  Action last_ = no_action;  // if it led on
+  Action last_ = no_action;  // that led on
   bool stale_ = false;       // U is not up to date
   std::uint64_t known_ = 0, next_gaps_ = 0;
   State widest_ = 0;
