@@ -27,6 +27,7 @@ Result<Training> Training::make(const RunSettings& settings, std::uint64_t index
     Result<Certifier> certifier = Certifier::make(*setup, certify_goal(settings));
     if (!certifier) return certifier.error();
     training.certifier_ = std::move(*certifier);
+    training.learner_->log_experience_only();
   }
   return training;
 }

@@ -54,6 +54,9 @@ class Learner {
   /// Acts and learns for at most `steps` steps; exactly that many unless it halts. With a log,
   /// stops when the log is full; the bits are the same with and without.
   virtual LearnProgress advance(std::uint64_t steps, std::span<Update> log) = 0;
+  /// Whoever reads the log looks at what happened only: best_next, target and step_size of an
+  /// Update may be left out from now on, where finding them costs time.
+  virtual void log_experience_only() {}
   virtual LearnProgress progress() const = 0;
   virtual Estimates estimates() const = 0;
   /// Everything that continuing needs, exactly: loading and advancing continues bit for bit.

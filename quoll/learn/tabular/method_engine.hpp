@@ -57,6 +57,8 @@ class MethodLearner final : public Learner {
     return progress();
   }
 
+  void log_experience_only() override { tells_changes_ = false; }
+
   LearnProgress progress() const override {
     LearnProgress now = progress_;
     now.steps = walk_.step;
@@ -152,7 +154,7 @@ class MethodLearner final : public Learner {
     step.terminated = landed.terminated;
     step.truncated = ++walk_.episode_step == episode_steps_ || landed.truncated;
     step.number = ++walk_.step;
-    step.watched = told != nullptr || stability_.watching();
+    step.watched = (told != nullptr && tells_changes_) || stability_.watching();
     // 2. Count the visit and learn from it.
     step.n = table_.visit(step.pair);
     if constexpr (M::looks_ahead) {
@@ -270,6 +272,7 @@ class MethodLearner final : public Learner {
   StartStates starts_;
   ReverseStarts reverse_;
   std::uint64_t episode_steps_;
+  bool tells_changes_ = true;
   Stability stability_;
   std::shared_ptr<const Mdp> mdp_;
   std::vector<std::uint8_t> met_;
