@@ -38,9 +38,7 @@ class DynaQ {
   Change learn(const Step& step, ValueTable<double>& table, const ChoiceDraws& draws) {
     // 1
     const double best_next = table.best_after(step.carry, step.next);
-    const double target = step.reward + step.carry * best_next;
-    const double alpha = step_size_.at(step.n);
-    step_towards(table, step.state, step.pair, target, alpha, step_size_, draws.rounding());
+    const Change change = learn_from(step, best_next, table, step_size_, draws);
     // 2
     count(model_, step);
     if (model_.tried(step.pair) == 1) tried_.push_back({step.pair, step.state});
@@ -54,7 +52,7 @@ class DynaQ {
       }
       table.set(drawn.state, drawn.pair, value);
     }
-    return {best_next, target, alpha};
+    return change;
   }
   void end_episode(ValueTable<double>&) {}
 

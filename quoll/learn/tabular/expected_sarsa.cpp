@@ -33,10 +33,7 @@ class ExpectedSarsa {
     // 2
     const double after = step.carry == 0.0 ? 0.0 : expectation(step, table);
     // 3
-    const double target = step.reward + step.carry * after;
-    const double alpha = step_size_.at(step.n);
-    step_towards(table, step.state, step.pair, target, alpha, step_size_, draws.rounding());
-    return {after, target, alpha};
+    return learn_from(step, after, table, step_size_, draws);
   }
   void end_episode(ValueTable<V>&) {}
   void persist(Archive&) {}

@@ -14,13 +14,11 @@
 //   5   Q(s_k,a_k) <- Q(s_k,a_k) + alpha(N(s_k,a_k)) (G - Q(s_k,a_k))
 //
 // n -> return_steps; e -> kept_; alpha -> StepSize; gamma, 0 after the end -> carry. An action that
-// ties with the best is greedy. G is rounded as the table is, so that the values of n = 1 are the
-// fixed point of every n. Cost: n multiply-adds a step. Memory: 40 n bytes.
+// ties with the best is greedy. Steps 3 to 5 -> LastSteps. Cost: n multiply-adds a step. Memory: 40
+// n bytes.
 
-#include <vector>
-
+#include "quoll/learn/tabular/last_steps.hpp"
 #include "quoll/learn/tabular/method_engine.hpp"
-#include "quoll/learn/tabular/past_step.hpp"
 #include "quoll/learn/tabular/rules.hpp"
 
 namespace quoll {
@@ -32,49 +30,24 @@ class NStep {
   using Value = V;
   static constexpr bool looks_ahead = false;
 
-  NStep(const TabularSetup& setup, const ValueTable<V>& table)
-      : step_size_(setup.step_size), begin_(table.begin()), most_(setup.of_method.return_steps) {}
+  NStep(const TabularSetup& setup, const ValueTable<V>& table) : kept_(setup, table) {}
 
   Change learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {
     // 1
     if (double{table[step.pair]} < table.best(step.state)) end_episode(table);
     const double best_next = table.best_after(step.carry, step.next);
-    // 2
-    kept_.push_back(PastStep::of(step, draws));
-    // 3
-    if (kept_.size() >= most_) {
-      double value = best_next;
-      for (auto e = kept_.rbegin(); e != kept_.rend(); ++e) value = back(*e, value);  // 4
-      learn_from(kept_.front(), value, table, step_size_);                            // 5
-      kept_.erase(kept_.begin());
-    }
-    return {best_next, step.reward + step.carry * best_next, step_size_.at(step.n)};
+    // 2, 3
+    kept_.add(PastStep::of(step, draws), table, worth);
+    return {best_next, step.reward + step.carry * best_next, kept_.step_size(step.n)};
   }
-
-  // All that are kept, each from its own part of the way: one pass from the last to the first.
-  void end_episode(ValueTable<V>& table) {
-    if (kept_.empty()) return;
-    const PastStep& last = kept_.back();
-    double value = table.best_after(last.carry, last.next);
-    for (auto e = kept_.rbegin(); e != kept_.rend(); ++e) {
-      value = back(*e, value);
-      learn_from(*e, value, table, step_size_);
-    }
-    kept_.clear();
-  }
-
-  void persist(Archive& archive) { persist_steps(archive, kept_, begin_, most_); }
+  void end_episode(ValueTable<V>& table) { kept_.learn_all(table, worth); }
+  void persist(Archive& archive) { kept_.persist(archive); }
 
  private:
-  // 4
-  static double back(const PastStep& e, double value) {
-    return double{static_cast<V>(e.reward + e.carry * value)};
-  }
+  // 4: what was done was the best there.
+  static double worth(const PastStep&, double value) { return value; }
 
-  StepSize step_size_;
-  const std::vector<std::uint64_t>& begin_;
-  std::uint64_t most_;
-  std::vector<PastStep> kept_;
+  LastSteps<V> kept_;
 };
 
 }  // namespace

@@ -54,10 +54,4 @@ inline void persist_steps(Archive& archive, std::vector<PastStep>& steps,
   archive.fail("an episode of another world");
 }
 
-/// Methods with a return of n steps: n at least 1.
-inline Result<void> check_return_steps(const TabularSetup& setup) {
-  if (setup.of_method.return_steps > 0) return {};
-  return Error{"--return-steps", 0, 0, "a whole number of at least 1 expected, not '0'", ""};
-}
-
 }  // namespace quoll

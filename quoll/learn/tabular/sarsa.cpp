@@ -30,10 +30,7 @@ class Sarsa {
   Change learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {
     const double after =
         step.terminated ? 0.0 : double{table[table.pair(step.next, step.next_action)]};
-    const double target = step.reward + step.carry * after;
-    const double alpha = step_size_.at(step.n);
-    step_towards(table, step.state, step.pair, target, alpha, step_size_, draws.rounding());
-    return {after, target, alpha};
+    return learn_from(step, after, table, step_size_, draws);
   }
   void end_episode(ValueTable<V>&) {}
   void persist(Archive&) {}

@@ -2,6 +2,7 @@
 // One step of a table's value towards a target: what every method with memory does to its table.
 
 #include "quoll/learn/step_size.hpp"
+#include "quoll/learn/tabular/method.hpp"
 #include "quoll/learn/tabular/rule.hpp"
 #include "quoll/learn/tabular/value_table.hpp"
 
@@ -18,6 +19,17 @@ void step_towards(ValueTable<Value>& table, State s, std::uint64_t pair, double 
     if (step.small() && alpha != 1.0) return table.set(s, pair, round_at_random(moved, rounding));
   }
   table.set(s, pair, static_cast<Value>(moved));
+}
+
+/// The value of the step's own pair towards r + carry * after, `after` being what the method takes
+/// the next state to be worth.
+template <class Value>
+Change learn_from(const Step& step, double after, ValueTable<Value>& table,
+                  const StepSize& step_size, const ChoiceDraws& draws) {
+  const double target = step.reward + step.carry * after;
+  const double alpha = step_size.at(step.n);
+  step_towards(table, step.state, step.pair, target, alpha, step_size, draws.rounding());
+  return {after, target, alpha};
 }
 
 }  // namespace quoll

@@ -15,13 +15,10 @@
 //
 // n -> return_steps; e -> kept_; alpha -> StepSize; gamma, 0 after the end -> carry. The sum in 4
 // is V + pi (G - V), V the best value: pi is 0 where a_(i+1) is not among the best, else 1 / their
-// number. G is rounded as the table is, so that the values of n = 1 are the fixed point of every n.
-// Cost: n rows a step. Memory: 40 n bytes.
+// number. Steps 2 to 5 -> LastSteps. Cost: n rows a step. Memory: 40 n bytes.
 
-#include <vector>
-
+#include "quoll/learn/tabular/last_steps.hpp"
 #include "quoll/learn/tabular/method_engine.hpp"
-#include "quoll/learn/tabular/past_step.hpp"
 #include "quoll/learn/tabular/rules.hpp"
 
 namespace quoll {
@@ -33,55 +30,29 @@ class TreeBackup {
   using Value = V;
   static constexpr bool looks_ahead = false;
 
-  TreeBackup(const TabularSetup& setup, const ValueTable<V>& table)
-      : step_size_(setup.step_size), begin_(table.begin()), most_(setup.of_method.return_steps) {}
+  TreeBackup(const TabularSetup& setup, const ValueTable<V>& table) : kept_(setup, table) {}
 
   Change learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {
-    // 1
+    // 1, 2
     const double best_next = table.best_after(step.carry, step.next);
-    kept_.push_back(PastStep::of(step, draws));
-    // 2
-    if (kept_.size() >= most_) {
-      double value = back(kept_.back(), best_next);
-      for (auto e = kept_.rbegin() + 1; e != kept_.rend(); ++e) {
-        value = back(*e, leaves(*(e - 1), value, table));
-      }
-      learn_from(kept_.front(), value, table, step_size_);  // 5
-      kept_.erase(kept_.begin());
-    }
-    return {best_next, step.reward + step.carry * best_next, step_size_.at(step.n)};
+    kept_.add(PastStep::of(step, draws), table, Worth{table});
+    return {best_next, step.reward + step.carry * best_next, kept_.step_size(step.n)};
   }
-
-  void end_episode(ValueTable<V>& table) {
-    if (kept_.empty()) return;
-    const PastStep& last = kept_.back();
-    double following = table.best_after(last.carry, last.next);
-    for (auto e = kept_.rbegin(); e != kept_.rend(); ++e) {
-      const double value = back(*e, following);
-      following = leaves(*e, value, table);
-      learn_from(*e, value, table, step_size_);
-    }
-    kept_.clear();
-  }
-
-  void persist(Archive& archive) { persist_steps(archive, kept_, begin_, most_); }
+  void end_episode(ValueTable<V>& table) { kept_.learn_all(table, Worth{table}); }
+  void persist(Archive& archive) { kept_.persist(archive); }
 
  private:
-  // 3
-  static double back(const PastStep& e, double following) {
-    return double{static_cast<V>(e.reward + e.carry * following)};
-  }
   // 4: what the state of `e` is worth when its action is worth `value`.
-  static double leaves(const PastStep& e, double value, const ValueTable<V>& table) {
-    const RowView<V> row = table.row(e.state);
-    const double best = double{row.best};
-    return table[e.pair] == row.best ? best + (value - best) / row.ties : best;
-  }
+  struct Worth {
+    const ValueTable<V>& table;
+    double operator()(const PastStep& e, double value) const {
+      const RowView<V> row = table.row(e.state);
+      const double best = double{row.best};
+      return table[e.pair] == row.best ? best + (value - best) / row.ties : best;
+    }
+  };
 
-  StepSize step_size_;
-  const std::vector<std::uint64_t>& begin_;
-  std::uint64_t most_;
-  std::vector<PastStep> kept_;
+  LastSteps<V> kept_;
 };
 
 }  // namespace
