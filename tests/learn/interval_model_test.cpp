@@ -50,7 +50,9 @@ TEST(KlInterval, MissesAsSeldomAsItSays) {
       std::vector<Interval> of_count;
       for (int k = 0; k <= n; ++k) of_count.push_back(kl_interval(double(k) / n, level / n));
       EXPECT_LE(worst_miss(of_count, 1.0), delta) << n;
-      if (delta < 0.5) EXPECT_GT(worst_miss(of_count, 0.7), delta) << n;
+      if (delta < 0.5) {
+        EXPECT_GT(worst_miss(of_count, 0.7), delta) << n;
+      }
     }
   }
 }
