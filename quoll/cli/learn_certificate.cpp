@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "quoll/base/text.hpp"
 #include "quoll/cli/certificate.hpp"
+#include "quoll/report/bounds_report.hpp"
 #include "quoll/report/table.hpp"
 
 namespace quoll::cli {
@@ -25,31 +24,42 @@ std::string action_text(const World& world, State s, Action a) {
   return a < world.action_names.size() ? world.action_names[a] : std::to_string(a);
 }
 
-std::string basis_text(const Certifier& certifier) {
-  if (certifier.certain()) return "from experience, the world being deterministic";
-  return fmt::format("from experience, with {} % confidence",
-                     shortest(100.0 * certifier.goal().confidence));
-}
-
 std::string goal_text(const CertifyGoal& goal) {
   const std::string gap =
       goal.relative ? shortest(100.0 * goal.gap) + " % of it" : shortest(goal.gap);
   return gap + (goal.everywhere ? " in every state" : " at the start");
 }
 
-std::string blocking_text(const Run& run, const Certifier& certifier) {
-  std::string text;
-  std::uint64_t needed = 0;
-  const std::vector<Blocking> pairs = certifier.blocking();
-  for (const Blocking& pair : pairs) needed += pair.needed;
-  for (const Blocking& pair : std::span(pairs).first(std::min<std::size_t>(pairs.size(), 5))) {
-    text +=
-        fmt::format("{}({}, {}) tried {}", text.empty() ? "Blocked by " : ", ",
-                    state_text(run.world(), pair.state),
-                    action_text(run.world(), pair.state, pair.action), counted(pair.tried, "time"));
+// With the names of what blocks it, where the goal was not reached.
+BoundsReport report_of(const Run& run, const Certifier& certifier) {
+  constexpr std::size_t most_named = 10;
+  BoundsReport report = bounds_report(certifier);
+  report.reached = certifier.certificate().reached;
+  if (*report.reached) return report;
+  const World& world = run.world();
+  for (const Blocking& pair : certifier.blocking()) {
+    report.needed += pair.needed;
+    if (report.blocking.size() == most_named) continue;
+    report.blocking.push_back({state_text(world, pair.state),
+                               action_text(world, pair.state, pair.action), pair.tried,
+                               pair.needed});
   }
-  if (text.empty()) return "";
-  return text + fmt::format("; about {} more samples are needed.\n", grouped(needed));
+  return report;
+}
+
+// What the model proves of the start's value, and what the first seed's policy loses of it.
+std::optional<BoundsReport> by_model(const Run& run, const RunResult& result) {
+  const std::optional<Optimality>& judged = result.seeds.front().optimality;
+  if (!result.exact || !judged || !run.entry().sound) return std::nullopt;
+  const Mdp& mdp = *run.world().mdp;
+  BoundsReport report;
+  report.by_model = true;
+  for (std::uint64_t i = 0; i < mdp.start().size(); ++i) {
+    report.lower += mdp.start_probability(i) * result.exact->lower[mdp.start()[i]];
+    report.upper += mdp.start_probability(i) * result.exact->upper[mdp.start()[i]];
+  }
+  report.gap = judged->regret;
+  return report;
 }
 
 }  // namespace
@@ -62,63 +72,21 @@ std::string experience_text(const Run& run, const RunResult& result) {
     return fmt::format("Certificate: none yet, the first check comes after {}.\n",
                        counted(certifier->due(), "step"));
   }
-  std::string text = fmt::format(
-      "{} {}: the start value lies in [{}, {}], and the policy loses at most {} ({}; asked {}).\n",
-      found.reached ? "Certified" : "Not certified,", basis_text(*certifier),
-      number_text(found.start_lower), number_text(found.start_upper), number_text(found.gap),
-      "at " + state_text(run.world(), found.widest), goal_text(certifier->goal()));
-  if (!found.reached) text += blocking_text(run, *certifier);
-  std::string assumed;
-  for (const std::string& one : certifier->assumptions()) {
-    assumed += (assumed.empty() ? "" : "; ") + one;
-  }
-  return text + "Assumed: " + assumed + ".\n";
+  const BoundsReport report = report_of(run, *certifier);
+  return fmt::format(
+             "{} from experience, {}: the start value lies in [{}, {}], and the policy loses at "
+             "most {} (at {}; asked {}).\n",
+             found.reached ? "Certified" : "Not certified,", certainty_text(report),
+             number_text(report.lower), number_text(report.upper), number_text(report.gap),
+             state_text(run.world(), found.widest), goal_text(certifier->goal())) +
+         blocking_text(report) + assumed_text(report);
 }
 
 void write_learned_certificate(JsonWriter& json, const Run& run, const RunResult& result) {
-  const SeedResult& first = result.seeds.front();
-  if (const Certifier* const certifier = certifier_of(run)) {
-    const ExperienceCertificate& found = *first.certificate;
-    if (found.lower.empty()) {
-      json.null_member("certificate");
-      return;
-    }
-    json.key("certificate").begin_object();
-    json.member("lower", found.start_lower).member("upper", found.start_upper);
-    json.member("gap", found.gap).member("reached", found.reached);
-    json.member("basis",
-                certifier->certain() ? "experience-deterministic" : "experience-confidence");
-    if (certifier->certain())
-      json.null_member("confidence");
-    else
-      json.member("confidence", certifier->goal().confidence);
-    json.key("assumptions").begin_array();
-    for (const std::string& one : certifier->assumptions()) json.value(one);
-    json.end_array();
-    json.key("blocking").begin_array();
-    for (const Blocking& pair : found.reached ? std::vector<Blocking>() : certifier->blocking(10)) {
-      json.begin_object().member("state", state_text(run.world(), pair.state));
-      json.member("action", action_text(run.world(), pair.state, pair.action));
-      json.member("visits", pair.tried).member("needed", pair.needed).end_object();
-    }
-    json.end_array().end_object();
-    return;
-  }
-  const std::optional<Optimality>& judged = first.optimality;
-  if (!result.exact || !judged || !run.entry().sound) {
-    json.null_member("certificate");
-    return;
-  }
-  const Mdp& mdp = *run.world().mdp;
-  double lower = 0.0, upper = 0.0;
-  for (std::uint64_t i = 0; i < mdp.start().size(); ++i) {
-    lower += mdp.start_probability(i) * result.exact->lower[mdp.start()[i]];
-    upper += mdp.start_probability(i) * result.exact->upper[mdp.start()[i]];
-  }
-  json.key("certificate").begin_object();
-  json.member("lower", lower).member("upper", upper).member("gap", judged->regret);
-  json.member("basis", "model").null_member("confidence");
-  json.key("assumptions").begin_array().end_array().end_object();
+  const Certifier* const certifier = certifier_of(run);
+  if (certifier == nullptr) return write_bounds(json, by_model(run, result));
+  if (certifier->certificate().lower.empty()) return write_bounds(json, std::nullopt);
+  write_bounds(json, report_of(run, *certifier));
 }
 
 Result<void> may_write_experience(const Run& run) {

@@ -9,6 +9,7 @@
 #include "quoll/base/text.hpp"
 #include "quoll/cli/learn_log.hpp"
 #include "quoll/cli/learn_report.hpp"
+#include "quoll/report/bounds_report.hpp"
 #include "quoll/report/explain_text.hpp"
 #include "quoll/report/table.hpp"
 
@@ -24,10 +25,13 @@ const ExperienceCertificate* bounds_of(const LogLearning& learned) {
   return learned.certifier ? &learned.certifier->certificate() : nullptr;
 }
 
-std::vector<std::string> assumptions(const LogLearning& learned) {
-  std::vector<std::string> list = learned.certifier->assumptions();
-  if (learned.named_by_logs) list.push_back("these are the states and actions that the log names");
-  return list;
+std::optional<BoundsReport> report_of(const LogLearning& learned) {
+  if (!learned.certifier) return std::nullopt;
+  BoundsReport report = bounds_report(*learned.certifier);
+  if (learned.named_by_logs) {
+    report.assumptions.push_back("these are the states and actions that the log names");
+  }
+  return report;
 }
 
 std::vector<double> q_star_of(const LogLearning& learned) {
@@ -121,20 +125,15 @@ std::string bounds_text(const LogLearning& learned) {
         learned.named_by_logs ? "a log" : learned.world.name, number_text(seen.low()),
         number_text(seen.high()));
   }
-  const ExperienceCertificate* const bounds = bounds_of(learned);
-  if (bounds == nullptr) return "No bounds on values: " + learned.no_bounds + ".\n";
-  std::string text =
-      learned.certifier->certain()
-          ? "The world being deterministic,"
-          : fmt::format("With {} % confidence", shortest(100.0 * learned.confidence));
-  text += fmt::format(" the optimal value of {} lies in [{}, {}].\n",
-                      learned.names->state_name(bounds->widest), number_text(bounds->start_lower),
-                      number_text(bounds->start_upper));
-  std::string assumed;
-  for (const std::string& one : assumptions(learned)) {
-    assumed += (assumed.empty() ? "" : "; ") + one;
-  }
-  return text + "Assumed: " + assumed + ".\n";
+  const std::optional<BoundsReport> report = report_of(learned);
+  if (!report) return "No bounds on values: " + learned.no_bounds + ".\n";
+  const State widest = learned.certifier->certificate().widest;
+  std::string certainty = certainty_text(*report) + (report->confidence ? "" : ",");
+  certainty.front() += 'A' - 'a';
+  return fmt::format("{} the optimal value of {} lies in [{}, {}].\n", certainty,
+                     learned.names->state_name(widest), number_text(report->lower),
+                     number_text(report->upper)) +
+         assumed_text(*report);
 }
 
 std::string verdict_text(const LogLearning& learned) {
@@ -209,23 +208,6 @@ void write_values(JsonWriter& json, const LogLearning& learned, bool all) {
   });
 }
 
-void write_bounds(JsonWriter& json, const LogLearning& learned) {
-  const ExperienceCertificate* const bounds = bounds_of(learned);
-  if (bounds == nullptr) {
-    json.null_member("certificate");
-    return;
-  }
-  const bool certain = learned.certifier->certain();
-  json.key("certificate").begin_object();
-  json.member("lower", bounds->start_lower).member("upper", bounds->start_upper);
-  json.member("gap", bounds->gap);
-  json.member("basis", certain ? "experience-deterministic" : "experience-confidence");
-  json.member("confidence", certain ? std::optional<double>() : std::optional(learned.confidence));
-  json.key("assumptions").begin_array();
-  for (const std::string& one : assumptions(learned)) json.value(one);
-  json.end_array().end_object();
-}
-
 void write_verdict(JsonWriter& json, const LogLearning& learned) {
   const std::optional<Optimality>& judged = learned.optimality;
   json.member("optimal", judged ? judged->optimal : std::nullopt);
@@ -279,7 +261,7 @@ std::string log_json(const LogLearning& learned, const std::vector<std::string>&
   write_values(json, learned, all);
   json.member("start", start_value(learned));
   write_verdict(json, learned);
-  write_bounds(json, learned);
+  write_bounds(json, report_of(learned));
   json.end_object();
   return json.text() + "\n";
 }

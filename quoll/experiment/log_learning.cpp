@@ -175,7 +175,6 @@ Result<LogLearning> learn_from_logs(std::span<const std::string> files,
   Result<TabularSetup> setup = setup_for(learned, files, world, settings);
   if (!setup) return setup.error();
   learned.discount = setup->discount;
-  learned.confidence = settings.confidence;
   learned.rewards = setup->rewards;
   if (learned.world.traits.players == 1) {
     Result<std::optional<Certifier>> made = certifier_for(learned, *setup, settings);

@@ -23,7 +23,6 @@ struct LogLearning {
   bool named_by_logs = false;        ///< no world was given
   std::shared_ptr<const Mdp> names;  ///< states and actions; only the world's model is more
   double discount = 1.0;
-  double confidence = 0.95;                     ///< of the bounds, in a noisy world
   std::uint64_t steps = 0, ended = 0, cut = 0;  ///< rows, and those that ended or were cut off
   CountedModel model;                           ///< per choice of `names`
   Plan plan;                                    ///< optimal among what was tried
