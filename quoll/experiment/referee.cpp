@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "quoll/model/graph.hpp"
 #include "quoll/solve/evaluate.hpp"
 #include "quoll/solve/optimality.hpp"
 #include "quoll/solve/solver.hpp"
@@ -22,20 +23,11 @@ Result<Referee> Referee::make(const World& world, double discount, double share)
     return Error{"", 0, 0, "two players move in turn in " + world.name + ": a race is run by one",
                  ""};
   }
-  Referee referee(world.mdp, discount, share);
+  Referee referee(world.mdp, discount);
   const Mdp& mdp = *world.mdp;
-  SolveSettings settings;
-  settings.discount = discount;
-  settings.width = 1e-9;
-  const Result<Solution> solution = solve(mdp, settings);
+  const Result<Solution> solution = referee.find_best();
   if (!solution) return solution.error();
-  double scale = 0.0;
-  for (State s = 0; s < mdp.states(); ++s) {
-    const double value = solution->lower[s] / 2 + solution->upper[s] / 2;
-    referee.best_.push_back(value);
-    if (std::isfinite(value)) scale = std::max(scale, std::fabs(value));
-  }
-  referee.slack_ = (mdp.deterministic() ? 1e-14 : 1e-9) * scale;
+  referee.width_ = std::max(referee.slack_ / 4, 1e-300);
   const auto enough = [&](double value) {
     return value - share * std::fabs(value) - referee.slack_;
   };
@@ -51,6 +43,40 @@ Result<Referee> Referee::make(const World& world, double discount, double share)
   if (!fewest) return fewest.error();
   referee.fewest_for_start_ = *fewest;
   return referee;
+}
+
+Result<Referee> Referee::of_goal(const World& world, double discount, const CertifyGoal& goal,
+                                 std::span<const State> from) {
+  Referee referee(world.mdp, discount);
+  const Mdp& mdp = *world.mdp;
+  const Result<Solution> solution = referee.find_best();
+  if (!solution) return solution.error();
+  double scale = HUGE_VAL;
+  for (const State s : mdp.start()) scale = std::min(scale, std::fabs(solution->lower[s]));
+  std::vector<bool> asked(mdp.states(), false);
+  for (const State s : mdp.start()) asked[s] = true;
+  if (goal.everywhere) asked = reachable(mdp, from);
+  for (State s = 0; s < mdp.states(); ++s) {
+    const double least = solution->upper[s] - goal.gap * (goal.relative ? scale : 1.0);
+    referee.least_.push_back(asked[s] && !mdp.terminal(s) ? least : -HUGE_VAL);
+  }
+  return referee;
+}
+
+Result<Solution> Referee::find_best() {
+  SolveSettings settings;
+  settings.discount = discount_;
+  settings.width = 1e-9;
+  Result<Solution> solution = solve(*mdp_, settings);
+  if (!solution) return solution;
+  double scale = 0.0;
+  for (State s = 0; s < mdp_->states(); ++s) {
+    const double value = solution->lower[s] / 2 + solution->upper[s] / 2;
+    best_.push_back(value);
+    if (std::isfinite(value)) scale = std::max(scale, std::fabs(value));
+  }
+  slack_ = (mdp_->deterministic() ? 1e-14 : 1e-9) * scale;
+  return solution;
 }
 
 // With an action known in n states the start is worth at most V* there and the least elsewhere: the
@@ -109,8 +135,8 @@ bool Referee::good(std::span<const Action> policy, RaceMode mode) const {
     }
   }
   // Along the graph of a deterministic model an evaluation costs no more than a sweep.
-  if (!mdp.deterministic() && certainly_bad(policy, mode)) return false;
-  const Result<Evaluation> value = evaluate(mdp, policy, discount_, std::max(slack_ / 4, 1e-300));
+  if (!mdp.deterministic() && !mdp.alternating() && certainly_bad(policy, mode)) return false;
+  const Result<Evaluation> value = evaluate(mdp, policy, discount_, width_);
   if (!value) return false;
   if (mode == RaceMode::start) return start_value(value->lower) >= least_start_;
   for (State s = 0; s < mdp.states(); ++s) {

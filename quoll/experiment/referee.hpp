@@ -1,6 +1,7 @@
 #pragma once
-// The referee of a race: it alone knows the model and its exact answer, and says of a policy
-// whether it is within a share of optimal. Those who learn see experience only.
+// The referee of a race, or of a run that asks for a certificate by the model: it alone knows the
+// model and its exact answer, and says of a policy whether it loses too much. Those who learn see
+// experience only.
 
 #include <memory>
 #include <span>
@@ -8,6 +9,8 @@
 
 #include "quoll/env/world.hpp"
 #include "quoll/experiment/heat.hpp"
+#include "quoll/learn/certifier.hpp"
+#include "quoll/model/solution.hpp"
 
 namespace quoll {
 
@@ -16,6 +19,12 @@ class Referee {
   /// Solves the world exactly. Error: a world without a model, a game of two who move in turn,
   /// discount 1 where values are not defined. `share`: what a policy may lose of |V*|.
   static Result<Referee> make(const World& world, double discount, double share = 0.01);
+
+  /// For a goal: a policy may lose its gap where episodes begin, or in every state that can be
+  /// reached from `from`, by the solver's bounds, so that rounding is not forgiven. Ask for mode
+  /// all. Error: the world has no exact answer at this discount.
+  static Result<Referee> of_goal(const World& world, double discount, const CertifyGoal& goal,
+                                 std::span<const State> from);
 
   /// Whether V*(s) - V^policy(s) <= share |V*(s)| in every non-terminal state (mode all), or for
   /// the value of the start distribution (mode start). What a state without an action is worth is
@@ -34,18 +43,20 @@ class Referee {
   const std::vector<double>& values() const { return best_; }  ///< V* per state
 
  private:
-  Referee(std::shared_ptr<const Mdp> mdp, double discount, double share)
-      : mdp_(std::move(mdp)), discount_(discount), share_(share) {}
+  Referee(std::shared_ptr<const Mdp> mdp, double discount)
+      : mdp_(std::move(mdp)), discount_(discount) {}
+  Result<Solution> find_best();
   double start_value(std::span<const double> values) const;
   Result<std::uint64_t> fewest_for_start() const;
   bool certainly_bad(std::span<const Action> policy, RaceMode mode) const;
 
   std::shared_ptr<const Mdp> mdp_;
-  double discount_, share_;
+  double discount_;
   std::vector<double> best_;   // V*
   std::vector<double> least_;  // per state: what is still good enough; -infinity = anything
   double best_start_ = 0.0, least_start_ = 0.0;
   double slack_ = 0.0;
+  double width_ = 1e-9;  // to which policies are evaluated
   std::uint64_t fewest_for_all_ = 0, fewest_for_start_ = 0;
 };
 

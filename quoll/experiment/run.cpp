@@ -11,9 +11,9 @@
 #include "quoll/base/file.hpp"
 #include "quoll/base/parallel.hpp"
 #include "quoll/base/text.hpp"
+#include "quoll/experiment/referee.hpp"
 #include "quoll/model/digest.hpp"
 #include "quoll/model/graph.hpp"
-#include "quoll/solve/evaluate.hpp"
 #include "quoll/solve/solver.hpp"
 
 namespace quoll {
@@ -167,30 +167,10 @@ bool Run::advance(const RunSettings& limits_asked, double pause,
 
 // Whether the greedy policy of a learner loses at most the gap asked for, by the model.
 std::function<bool(const Learner&)> Run::referee() const {
-  SolveSettings precisely;
-  precisely.discount = discount();
-  precisely.width = 1e-9;
-  const auto exact = std::make_shared<const Result<Solution>>(solve(*world_->mdp, precisely));
-  const CertifyGoal goal = certify_goal(settings_);
-  const std::vector<State> from = starts();
-  return [this, exact, goal, from](const Learner& learner) {
-    if (!*exact) return false;
-    const Mdp& mdp = *world_->mdp;
-    const std::vector<Action> policy = greedy_policy(learner.estimates());
-    const Result<Evaluation> worth = evaluate(mdp, policy, discount());
-    if (!worth) return false;
-    double scale = HUGE_VAL, loss = 0.0;
-    for (const State s : mdp.start()) scale = std::min(scale, std::fabs((*exact)->lower[s]));
-    const std::vector<bool> reached = reachable(mdp, from);
-    const auto lose = [&](State s) { loss = std::max(loss, (*exact)->upper[s] - worth->lower[s]); };
-    if (goal.everywhere) {
-      for (State s = 0; s < mdp.states(); ++s) {
-        if (reached[s] && !mdp.terminal(s)) lose(s);
-      }
-    } else {
-      for (const State s : mdp.start()) lose(s);
-    }
-    return loss <= goal.gap * (goal.relative ? scale : 1.0);
+  const auto judge = std::make_shared<const Result<Referee>>(
+      Referee::of_goal(*world_, discount(), certify_goal(settings_), starts()));
+  return [judge](const Learner& learner) {
+    return *judge && (*judge)->good(greedy_policy(learner.estimates()), RaceMode::all);
   };
 }
 
