@@ -15,7 +15,6 @@
 #include "quoll/cli/policy_file.hpp"
 #include "quoll/cli/same_world.hpp"
 #include "quoll/cli/verbs.hpp"
-#include "quoll/learn/choice.hpp"
 
 namespace quoll::cli {
 namespace {
@@ -150,8 +149,7 @@ Result<bool> leaves_it_open(const LearnOptions& options) {
          });
 }
 
-Result<Run> open_run(const LearnOptions& options, const RunSettings& limits,
-                     std::optional<MethodChoice>& choice) {
+Result<Run> open_run(const LearnOptions& options, const RunSettings& limits) {
   const bool watch = !limits.has_limit() || limits.until == "stable";
   const Result<void> fits = options.how.check_discount();
   if (!fits) return fits.error();
@@ -175,10 +173,6 @@ Result<Run> open_run(const LearnOptions& options, const RunSettings& limits,
   const Result<bool> open = leaves_it_open(options);
   if (!open) return open.error();
   if (*open) settings.learn.method = "auto";
-  if (settings.learn.method == "auto" && world->traits.states > 0) {
-    choice = settle_method(*world, settings.learn);
-  }
-  if (settings.learn.method == "auto") settings.learn.method = "q-learning";  // refused below
   const Result<std::vector<double>> rewards =
       initial_rewards(settings.learn.initial_rewards, *world);
   if (!rewards) return rewards.error();
@@ -225,10 +219,10 @@ Exit exit_status(const Run& run, const RunSettings& limits) {
 
 // Prints the result.
 Exit tell(const Run& run, const LearnOptions& options, const RunSettings& limits, Learner* twin,
-          const ComingUpdates* coming, const MethodChoice* choice) {
+          const ComingUpdates* coming) {
   const Result<StandardBeside> beside = standard_beside(run, twin);
   if (!beside) return fail(beside.error());
-  const LearnStory story{options.output.all, limits.until == "stable", coming, &*beside, choice};
+  const LearnStory story{options.output.all, limits.until == "stable", coming, &*beside};
   const RunResult result = run.result(true);
   const std::string text = options.output.json ? learn_json(run, result, story)
                                                : learn_text(run, result, stdout_style(), story);
@@ -280,8 +274,7 @@ Exit learn(const LearnOptions& options) {
   if (!limits) return fail(limits.error());
   const Result<double> pause = save_pause(options);
   if (!pause) return fail(pause.error());
-  std::optional<MethodChoice> choice;
-  Result<Run> run = open_run(options, *limits, choice);
+  Result<Run> run = open_run(options, *limits);
   if (!run) return fail(run.error());
   run->set_threads(options.threads);
   if (!options.certificate.empty()) {
@@ -303,8 +296,7 @@ Exit learn(const LearnOptions& options) {
   catch_interrupts();
   const Result<void> saved = advance(*run, options, *limits, *pause, files);
   const Result<void> written = files.write_folder(*run);
-  const Exit told = tell(*run, options, *limits, twin->get(), coming ? &*coming : nullptr,
-                         choice ? &*choice : nullptr);
+  const Exit told = tell(*run, options, *limits, twin->get(), coming ? &*coming : nullptr);
   if (!saved) return fail(saved.error());
   if (!written) return fail(written.error());
   if (told != done) return told;

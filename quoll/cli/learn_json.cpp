@@ -153,7 +153,7 @@ std::string learn_json(const Run& run, const RunResult& result, const LearnStory
   JsonWriter json(JsonStyle::pretty);
   json.begin_object();
   json.member("world", run.world().name).member("method", learn.method);
-  if (story.choice != nullptr) json.member("chosen", story.choice->options());
+  if (run.choice()) json.member("chosen", run.choice()->options());
   write_rule(json, run.entry());
   json.member("discount", run.discount()).member("seed", learn.seed);
   json.member("steps", steps).member("seconds", result.seconds);

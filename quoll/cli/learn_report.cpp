@@ -84,14 +84,9 @@ std::string stop_sentence(const Run& run, const SeedResult& seed, const LearnSto
   }
 }
 
-std::string choice_name(const Mdp& mdp, State state, Action action) {
-  return "(" + mdp.state_name(state) + ", " + mdp.action_name(mdp.choice_begin(state) + action) +
-         ")";
-}
-
 std::string impossible_text(const Run& run, const Impossible& impossible) {
   if (!impossible.found || !run.world().mdp) return "";
-  const std::string where = choice_name(*run.world().mdp, impossible.state, impossible.action);
+  const std::string where = pair_text(*run.world().mdp, impossible.state, impossible.action);
   if (impossible.bound > 0.0) {
     return fmt::format(
         "Impossible value: at step {} Q{} = {}, but no policy can earn more than {} here (largest "
@@ -109,7 +104,7 @@ std::string least_visited_text(const Run& run, const RunResult& result, const Le
   std::string text;
   for (const PairVisits& pair : pairs) {
     text += fmt::format("{}{} {}", text.empty() ? "Least visited: " : ", ",
-                        choice_name(*run.world().mdp, pair.state, pair.action),
+                        pair_text(*run.world().mdp, pair.state, pair.action),
                         counted(pair.visits, "time"));
   }
   return text + "\n";
@@ -206,7 +201,7 @@ std::string printed_text(const Run& run, const LearnStory& story) {
   const Update& printed = *story.beside->printed;
   return text + fmt::format("First difference: step {}, QE{} = {}; the standard rule has {}.\n",
                             grouped(printed.step),
-                            choice_name(*run.world().mdp, printed.state, printed.action),
+                            pair_text(*run.world().mdp, printed.state, printed.action),
                             number_text(printed.new_value),
                             number_text(story.beside->standard->new_value));
 }
@@ -285,8 +280,8 @@ std::string learn_text(const Run& run, const RunResult& result, const TerminalSt
                        const LearnStory& story) {
   const SeedResult& first = result.seeds.front();
   std::string text = heading(run);
-  if (story.choice != nullptr) {
-    text += "Chosen: " + story.choice->options() + "; " + story.choice->reason + ".\n";
+  if (run.choice()) {
+    text += "Chosen: " + run.choice()->options() + "; " + run.choice()->reason + ".\n";
   }
   if (result.seeds.size() > 1) {
     text += "\n" + printed_text(run, story) + seeds_table(run, result);

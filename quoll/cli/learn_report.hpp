@@ -5,7 +5,6 @@
 
 #include "quoll/cli/learn_explain.hpp"
 #include "quoll/experiment/run.hpp"
-#include "quoll/learn/choice.hpp"
 #include "quoll/report/table.hpp"
 
 namespace quoll::cli {
@@ -16,7 +15,6 @@ struct LearnStory {
   bool until_stable = false;               ///< --until stable was asked for
   const ComingUpdates* coming = nullptr;   ///< of --explain
   const StandardBeside* beside = nullptr;  ///< of the rule as-printed
-  const MethodChoice* choice = nullptr;    ///< what was chosen where nothing was asked for
 };
 
 /// Table or grid, verdict, curve, and what to do next.

@@ -14,9 +14,10 @@ World world(std::string name, const MdpBuilder& builder) {
   return to_world(std::move(name), value_or_raise(builder.build()));
 }
 
-Learned::Learned(World world, Estimates estimates, RunResult result)
-    : world_(std::move(world)),
-      estimates_(std::move(estimates)),
+Learned::Learned(const Run& run, RunResult result)
+    : world_(run.world()),
+      choice_(run.choice()),
+      estimates_(run.trainings().front().learner().estimates()),
       result_(std::move(result)),
       policy_(result_.seeds.front().policy) {}
 
@@ -88,7 +89,13 @@ Learned learn(const World& world, const RunSettings& settings) {
   Run run = value_or_raise(Run::start(asked, {world.name, world.parameters}, world, {}));
   run.set_threads(asked.threads);
   run.advance(asked, 0.0, {}, {});
-  return {world, run.trainings().front().learner().estimates(), run.result(true)};
+  return {run, run.result(true)};
+}
+
+Learned learn(const World& world) {
+  LearnSettings open;
+  open.method = "auto";
+  return learn(world, open);
 }
 
 Learned learn(const World& world, const LearnSettings& settings) {

@@ -24,7 +24,7 @@ World world(std::string name, const MdpBuilder& builder);
 /// Everything asked for is that of the first seed.
 class Learned {
  public:
-  Learned(World world, Estimates estimates, RunResult result);
+  Learned(const Run& run, RunResult result);
 
   /// The learned value of an action; raises an unknown name with the nearest known one.
   double q(std::string_view state, std::string_view action) const;
@@ -40,20 +40,26 @@ class Learned {
   /// Steps, stops, proof, exact answer, returns: of all seeds.
   const RunResult& result() const { return result_; }
   const World& world() const { return world_; }
+  /// The method that was chosen for the world, and why; none where the settings named one.
+  const std::optional<MethodChoice>& choice() const { return choice_; }
 
  private:
   State find(std::string_view state) const;
   std::uint64_t pair(State state, Action action) const;
 
   World world_;
+  std::optional<MethodChoice> choice_;
   Estimates estimates_;
   RunResult result_;
   TablePolicy policy_;
 };
 
-/// Learns until a limit of the settings is met; without one until nothing changes any more, or
-/// for max(10^6, 2000 x pairs) steps. The settings are those of `quoll learn`.
-Learned learn(const World& world, const RunSettings& settings = {});
+/// As `quoll learn WORLD`: by the method that fits what the world declares (learn/choice.hpp),
+/// until nothing changes any more, or for max(10^6, 2000 x pairs) steps.
+Learned learn(const World& world);
+/// The same by settings, those of `quoll learn`, until one of their limits is met. The method is
+/// the one they name; "auto" names the one that fits.
+Learned learn(const World& world, const RunSettings& settings);
 Learned learn(const World& world, const LearnSettings& settings);
 
 }  // namespace quoll

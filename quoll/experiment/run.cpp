@@ -74,6 +74,7 @@ Result<Run> Run::start(RunSettings settings, WorldSource source, const World& wo
   run.source_ = std::move(source);
   run.world_ = std::make_shared<const World>(world);
   run.initial_rewards_ = std::move(initial_rewards);
+  run.choice_ = settle_method(world, run.settings_.learn);
   const Result<const LearnerEntry*> entry = find_learner(run.settings_.learn);
   if (!entry) return entry.error();
   run.entry_ = *entry;

@@ -11,6 +11,7 @@
 
 #include "quoll/experiment/evaluation.hpp"
 #include "quoll/experiment/training.hpp"
+#include "quoll/learn/choice.hpp"
 #include "quoll/model/solution.hpp"
 #include "quoll/solve/optimality.hpp"
 
@@ -57,6 +58,7 @@ struct RunResult {
 
 class Run {
  public:
+  /// The method "auto" is settled here (learn/choice.hpp).
   static Result<Run> start(RunSettings settings, WorldSource source, const World& world,
                            std::vector<double> initial_rewards);
   /// Reads a run file; finds its world again (beside the file if not where it was), and refuses a
@@ -83,6 +85,8 @@ class Run {
   const World& world() const { return *world_; }
   double discount() const;
   const LearnerEntry& entry() const { return *entry_; }
+  /// What was settled on for "auto"; none where the settings named the method.
+  const std::optional<MethodChoice>& choice() const { return choice_; }
   std::vector<Training>& trainings() { return trainings_; }
   const std::vector<Training>& trainings() const { return trainings_; }
 
@@ -96,6 +100,7 @@ class Run {
   std::shared_ptr<const World> world_;
   std::vector<double> initial_rewards_;
   const LearnerEntry* entry_ = nullptr;
+  std::optional<MethodChoice> choice_;
   std::vector<Training> trainings_;
 };
 

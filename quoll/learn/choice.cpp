@@ -23,6 +23,9 @@ bool values_bounded(const World& world, const LearnSettings& settings) {
 }  // namespace
 
 MethodChoice choose_method(const World& world, const LearnSettings& settings) {
+  if (world.traits.states == 0) {
+    return {"q-learning", "world", "no table can learn what cannot be listed"};
+  }
   if (world.traits.players > 1) {
     return {"q-learning", "world", "two players learn from each other's moves"};
   }

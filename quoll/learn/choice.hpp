@@ -15,7 +15,8 @@ struct MethodChoice {
   std::string options() const { return "--method " + method + " --start " + start; }
 };
 
-/// For worlds whose states can be listed:
+/// In this order:
+///   states that cannot be listed      -> q-learning, and resolve() says why no table learns it
 ///   two players, or so few pairs that chance visits them all, or so many that a model is too large
 ///                                     -> q-learning, the lecture's own
 ///   can be put into any state         -> empirical-model, each pair in turn

@@ -50,6 +50,20 @@ TEST(Learn, RaisesWhatIsWrong) {
   has([&] { return learn(world("adventure"), run); }, "stable");
 }
 
+// What `quoll learn WORLD` settles on.
+TEST(Learn, ChoosesWhatTheCommandLineChooses) {
+  const Learned open = learn(world("frozen-lake"));
+  ASSERT_TRUE(open.choice());
+  EXPECT_EQ(open.choice()->options(), "--method empirical-model --start each-pair");
+  LearnSettings settings;
+  settings.method = "auto";
+  settings.start = "uniform";
+  const Learned halfway = learn(world("frozen-lake"), settings);
+  EXPECT_EQ(halfway.choice()->options(), "--method empirical-model --start uniform");
+  settings.method = "q-learning";
+  EXPECT_FALSE(learn(world("adventure"), settings).choice());
+}
+
 TEST(Learn, WorksWithoutAModel) {
   RunSettings settings;
   settings.steps = 20'000;
