@@ -51,7 +51,8 @@ IntervalModel::IntervalModel(const CountedModel& model, const std::vector<std::u
   const double share = noisy_rewards ? 0.5 * failure : failure;
   // Two sides of each interval.
   const double level = math::log(2.0 * intervals / share);
-  const double reward_level = math::log(2.0 * pairs / share);
+  // Two sides of each mean, and its variance, which both use.
+  const double reward_level = math::log(3.0 * pairs / share);
   row_.push_back(0);
   for (std::uint64_t pair = 0; pair < begin.back(); ++pair) {
     add_row(model, pair, listed, level);
