@@ -28,7 +28,8 @@ void MethodSettings::describe(Describer& d) {
 }
 
 void LearnSettings::describe(Describer& d) {
-  d("method", method, "how to learn; see 'quoll list methods'");
+  d("method", method,
+    "how to learn; see 'quoll list methods'; auto, or no setting of learning at all: by the world");
   d("rule", rule, "update rule: standard, as-printed (the lecture's text) or reward-estimate");
   d("discount", discount, 0, 1, "discount factor of the future; 0 = the world's own");
   d("seed", seed, "which random numbers; the same seed gives the same bits");
