@@ -20,7 +20,7 @@ std::string in_quotes(std::string_view text) {
 
 // A row of nothing but commas, as spreadsheets leave them.
 bool is_blank(std::string_view line) {
-  return line.find_first_not_of(", \t") == std::string_view::npos;
+  return trim(line).find_first_not_of(", \t") == std::string_view::npos;
 }
 
 }  // namespace
