@@ -68,6 +68,16 @@ function(quoll_fractions folder)
   endif()
 endfunction()
 
+# Google Highway for a floor: its headers alone, no library. Its thousand small functions are nothing
+# without optimisation, in the trees for sanitizers too.
+function(quoll_vectors folder)
+  find_path(HWY_INCLUDE_DIR hwy/highway.h REQUIRED)
+  mark_as_advanced(HWY_INCLUDE_DIR)
+  target_include_directories(quoll_${folder} SYSTEM PRIVATE ${HWY_INCLUDE_DIR})
+  set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/quoll/${folder}/arithmetic.cpp
+                              PROPERTIES COMPILE_OPTIONS -O2 SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
+
 # All floors together: the library users link, Quoll::Quoll.
 function(quoll_library)
   add_library(quoll STATIC)

@@ -212,6 +212,7 @@ class Folder {
     fs::permissions(here() / "dev", fs::perms::owner_all);
     setenv("PATH", ((root_ / "bin").string() + ":" + std::getenv("PATH")).c_str(), 1);
     setenv("QUOLL_SOURCE", QUOLL_SOURCE, 1);
+    setenv("QUOLL_QUIET", "1", 1);  // how long something takes is no matter of a case
     for (const char* name_of : {"COLUMNS", "NO_COLOR", "CLICOLOR_FORCE"}) unsetenv(name_of);
   }
   ~Folder() {

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "learn/worlds.hpp"
+#include "quoll/nn/arithmetic.hpp"
 #include "quoll/solve/average_reward.hpp"
 #include "quoll/solve/finite_horizon.hpp"
 #include "quoll/solve/solver.hpp"
@@ -49,6 +50,9 @@ std::uint64_t learned(const LearnerEntry& entry, const World& world, const std::
   for (const Precision precision : {Precision::single, Precision::twofold}) {
     LearnSettings settings;
     settings.method = entry.method;
+    settings.deep.hidden = "16";  // enough to differ
+    settings.deep.batch = 8;
+    if (entry.method == "nfq") settings.deep.fits = settings.deep.epochs = 2;  // each is the same
     settings.rule = entry.rule.empty() ? "standard" : entry.rule;
     settings.explore = explore;
     settings.start = start;
@@ -180,6 +184,9 @@ std::uint64_t signature(bool parts) {
 }  // namespace quoll
 
 int main(int argc, char** argv) {
+  // The arithmetic every processor has: networks give other bits where one instruction multiplies
+  // and adds (tests/nn compares those with each other).
+  quoll::nn::use_arithmetic("base");
   const bool parts = argc == 2 && std::strcmp(argv[1], "--parts") == 0;
   char text[17];
   std::snprintf(text, sizeof text, "%016" PRIx64, quoll::signature(parts));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <vector>
 
 namespace yardstick {
@@ -12,6 +13,19 @@ inline double seconds(auto&& work) {
   const auto begun = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+}
+
+/// Time of the processor that `work()` takes, all threads together: what other programs take does
+/// not count.
+inline double cpu_seconds(auto&& work) {
+  const auto now = [] {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  };
+  const double begun = now();
+  work();
+  return now() - begun;
 }
 
 /// The upper one of an even number of values; at least one expected.

@@ -84,6 +84,7 @@ struct Exploration {
   double count_scale = 1.0;  ///< count-bonus: constant times the span of rewards
   double omega = 1.0;        ///< mellowmax, per unit of value
 
+  std::string_view name() const { return exploration_names[static_cast<std::size_t>(kind)]; }
   /// True when CoinExploration with coin_threshold() makes the same choices.
   bool is_coin() const {
     return kind == Kind::uniform || kind == Kind::greedy ||

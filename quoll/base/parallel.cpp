@@ -57,6 +57,10 @@ class Crew {
   unsigned open(Table& table, unsigned seats) {
     if (seats == 0 || busy_.exchange(true, std::memory_order_acquire)) return 0;
     seats = std::min(seats, hire(seats));
+    if (seats == 0) {
+      busy_.store(false, std::memory_order_release);
+      return 0;
+    }
     table_ = &table;
     seats_ = seats;
     spins_ = seats < processors() ? most_spins : 0;
@@ -198,7 +202,7 @@ class Gathering : public Table {
   explicit Gathering(const std::function<void(Team&, unsigned)>& work) : work_(work) {}
 
   void run(unsigned threads) {
-    const unsigned offered = crew().open(*this, seats_for(threads, most_threads));
+    const unsigned offered = crew().open(*this, seats_for(threads, processors()));
     team_.emplace(1 + (offered > 0 ? crew().late_ones_out() : 0));
     ready_.store(true, std::memory_order_release);
     sit(0);

@@ -25,7 +25,8 @@ class Team {
  public:
   /// Calls work(team, member) for each member in [0, team.size()) at the same time, each on a
   /// thread of its own, and returns when all are done. At most `threads` of them (0 =
-  /// processors()), and as many as come within a millisecond: maybe the caller alone.
+  /// processors()), never more than processors(), for they wait for each other at every step, and
+  /// as many as come within a millisecond: maybe the caller alone.
   static void gather(unsigned threads, const std::function<void(Team&, unsigned)>& work);
 
   explicit Team(unsigned size) : rounds_(size) {}

@@ -257,6 +257,9 @@ void release_interrupts() {
   std::signal(SIGTERM, SIG_DFL);
 }
 
+ProgressDisplay::ProgressDisplay(bool quiet, std::string_view unit)
+    : quiet_(quiet || std::getenv("QUOLL_QUIET") != nullptr), unit_(unit) {}
+
 void ProgressDisplay::show(std::uint64_t done_now, std::uint64_t total, double seconds,
                            const std::string& extra, std::uint64_t resumed) {
   const bool terminal = stderr_is_terminal();

@@ -92,11 +92,10 @@ bool interrupted();
 void release_interrupts();
 
 /// Progress of a long work on stderr: a bar on a terminal, a line every 2 s in a pipe, nothing with
-/// `quiet`. Shows nothing for works under half a second.
+/// `quiet` or with QUOLL_QUIET in the environment. Shows nothing for works under half a second.
 class ProgressDisplay {
  public:
-  explicit ProgressDisplay(bool quiet, std::string_view unit = "steps")
-      : quiet_(quiet), unit_(unit) {}
+  explicit ProgressDisplay(bool quiet, std::string_view unit = "steps");
   ~ProgressDisplay();
   void show(std::uint64_t done_now, std::uint64_t total, double seconds, const std::string& extra,
             std::uint64_t resumed = 0);

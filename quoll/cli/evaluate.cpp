@@ -220,16 +220,14 @@ Result<Evaluated> evaluated(const EvaluateOptions& options, const EvaluationSett
 Exit evaluate_by_playing(const EvaluateOptions& options, const EvaluationSettings& asked,
                          const World& world) {
   constexpr std::uint64_t standard_episodes = 100;
-  std::vector<Action> actions;
-  if (options.policy != "uniform") {
-    Result<std::vector<Action>> read = read_policy(options.policy, world);
-    if (!read) return fail(read.error());
-    actions = std::move(*read);
-  }
+  Result<std::unique_ptr<Policy>> policy =
+      options.policy == "uniform"
+          ? std::unique_ptr<Policy>(std::make_unique<UniformPolicy>(uniform_policy_of(world)))
+          : read_acting(options.policy, world);
+  if (!policy) return fail(policy.error());
   const Plays plays{asked.episodes > 0 ? asked.episodes : standard_episodes, asked.seed,
                     asked.discount > 0.0 ? asked.discount : world.discount, cut_of(world, asked)};
-  const Sampled sampled = actions.empty() ? sample(world, uniform_policy_of(world), plays)
-                                          : sample(world, TablePolicy(std::move(actions)), plays);
+  const Sampled sampled = sample(world, **policy, plays);
   JsonWriter json(JsonStyle::pretty);
   json.begin_object().member("world", world.name).member("policy", options.policy);
   json.null_member("states").member("discount", plays.discount).null_member("start");

@@ -36,7 +36,7 @@ struct ExplainOptions {
 // What is explained: a way to learn, and the updates it made.
 struct Lesson : ToldUpdates {
   LearnSettings settings;
-  TabularSetup setup;
+  LearnSetup setup;
   const LearnerEntry* entry = nullptr;
   std::string origin;            // where the transitions come from, one sentence
   bool own = false;              // the updates are a learner's own, not a replay
@@ -83,7 +83,7 @@ void own_updates(Lesson& lesson, std::uint64_t steps) {
   lesson.origin = fmt::format(
       "The first {} of a run, seed {}, actions {}, starts {}:",
       lesson.updates.size() == 1 ? "step" : std::to_string(lesson.updates.size()) + " steps",
-      lesson.settings.seed, lesson.settings.explore, lesson.settings.start);
+      lesson.settings.seed, lesson.setup.exploration.name(), lesson.settings.start);
 }
 
 Result<Lesson> lesson_of(const ExplainOptions& options, const World& world) {
@@ -91,13 +91,18 @@ Result<Lesson> lesson_of(const ExplainOptions& options, const World& world) {
   lesson.settings.until_stable = false;
   const Result<void> applied = options.how.apply(settings_of(lesson.settings));
   if (!applied) return applied.error();
-  const Result<const LearnerEntry*> entry = find_learner(lesson.settings);
+  const Result<const LearnerEntry*> entry = find_offered(lesson.settings);
   if (!entry) return entry.error();
   lesson.entry = *entry;
+  if (lesson.entry->traits.approximates) {
+    return Error{"--method", 0, 0,
+                 "explain shows the updates of a table; " + lesson.settings.method + " keeps none",
+                 ""};
+  }
   const Result<std::vector<double>> rewards =
       initial_rewards(lesson.settings.initial_rewards, world);
   if (!rewards) return rewards.error();
-  const Result<TabularSetup> setup = resolve(lesson.settings, world, *rewards);
+  const Result<LearnSetup> setup = resolve(lesson.settings, world, *rewards);
   if (!setup) return setup.error();
   lesson.setup = *setup;
 

@@ -71,6 +71,8 @@ Exit explain_learned(const World& world, const StateQuestion& question,
   if (!state) return fail(state.error());
   const Result<Run> run = Run::load(question.run, false);
   if (!run) return fail(run.error());
+  const std::string missing = no_table(*run);
+  if (!missing.empty()) return fail({"--run", 0, 0, missing, ""});
   Known known{**states, *state, run->trainings().front().learner().estimates(), no_action, *run};
   if (run->world().name != world.name || known.estimates.q.size() != (*states)->choices()) {
     return fail({"--run", 0, 0, "the saved run does not learn this form of " + world.name, ""});

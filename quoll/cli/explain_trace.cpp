@@ -119,7 +119,7 @@ Result<std::vector<Update>> standard_beside(const LearnSettings& settings, const
   standard.precision = Precision::twofold;
   const Result<const LearnerEntry*> entry = find_learner(standard);
   if (!entry) return entry.error();
-  const Result<TabularSetup> setup = resolve(standard, world);
+  const Result<LearnSetup> setup = resolve(standard, world);
   if (!setup) return setup.error();
   return (*entry)->replay(*setup, observed(*world.mdp, updates));
 }

@@ -1,4 +1,5 @@
-// quoll export RUN --to c|json|csv|moves: the policy of a saved run, for other programs.
+// quoll export RUN --to c|json|csv|moves|onnx|safetensors: the policy of a saved run, or its
+// network, for other programs.
 
 #include <fmt/format.h>
 
@@ -7,12 +8,12 @@
 
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
+#include "quoll/cli/export_targets.hpp"
 #include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/policy_file.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/env/listed.hpp"
 #include "quoll/report/export_map.hpp"
-#include "quoll/report/export_policy.hpp"
 
 namespace quoll::cli {
 namespace {
@@ -24,10 +25,6 @@ struct ExportOptions {
   std::string name;
 };
 
-struct Target {
-  std::string_view name, extension;  // none = only by name
-  Result<std::string> (*write)(const PolicyExport& policy);
-};
 template <std::string (*write)(const PolicyExport&)>
 Result<std::string> always(const PolicyExport& policy) {
   return write(policy);
@@ -35,15 +32,22 @@ Result<std::string> always(const PolicyExport& policy) {
 Result<std::string> moves(const PolicyExport& policy) {
   return moves_csv({policy.mdp, policy.policy, {}});
 }
-constexpr std::array<Target, 4> targets{{{"c", ".h", always<policy_c>},
-                                         {"json", ".json", always<policy_json>},
-                                         {"csv", ".csv", always<policy_csv>},
-                                         {"moves", "", moves}}};
+constexpr std::array<ExportTarget, 6> targets{
+    {{"c", ".h", "a header for C99 and C++ that checks itself: a table of moves, or a network",
+      always<policy_c>, network_c},
+     {"json", ".json", "the move of each state, and what is proved of them", always<policy_json>,
+      nullptr},
+     {"csv", ".csv", "the move of each state: state,action", always<policy_csv>, nullptr},
+     {"moves", "", "the moves of a grid with their places: x,y,state,move", moves, nullptr},
+     {"onnx", ".onnx", "a network with everything around it, from what is observed to Q", nullptr,
+      network_onnx},
+     {"safetensors", ".safetensors", "the numbers of a network by name, as PyTorch lays them out",
+      nullptr, network_safetensors}}};
 
 /// By --to, else by the ending of -o.
-Result<const Target*> find_target(const ExportOptions& options) {
+Result<const ExportTarget*> find_target(const ExportOptions& options) {
   Nearest nearest(options.to);
-  for (const Target& target : targets) {
+  for (const ExportTarget& target : targets) {
     nearest.offer(target.name);
     if (options.to == target.name) return &target;
     if (options.to.empty() && !target.extension.empty() &&
@@ -52,10 +56,14 @@ Result<const Target*> find_target(const ExportOptions& options) {
     }
   }
   if (options.to.empty()) {
-    return Error{"--to", 0, 0, "c, json or csv expected, or -o with a name in .h, .json or .csv",
-                 ""};
+    return Error{
+        "--to", 0, 0,
+        "c, json, csv, onnx or safetensors expected, or -o with a name in .h, .json, .csv, "
+        ".onnx or .safetensors",
+        ""};
   }
-  return Error{"--to", 0, 0, "c, json, csv or moves expected, not '" + options.to + "'",
+  return Error{"--to", 0, 0,
+               "c, json, csv, moves, onnx or safetensors expected, not '" + options.to + "'",
                nearest.best()};
 }
 
@@ -93,38 +101,85 @@ struct Exported {
   std::string world;  // the name of the world, perhaps a file's
 };
 
-Result<Exported> exported(const ExportOptions& options, const Target& target) {
+Result<std::string> policy_text(const ExportOptions& options, const ExportTarget& target,
+                                const Run& run) {
+  const Result<std::shared_ptr<const Mdp>> states = listed(run.world());
+  if (!states) return Error{run_file(options.run), 0, 0, states.error().expected, ""};
+  PolicyExport policy;
+  policy.mdp = states->get();
+  policy.name = options.name.empty() ? run.world().name : options.name;
+  const Result<JudgedRun> judged = judge_run(run, 1);
+  std::vector<Action> actions;
+  if (judged) {
+    actions = judged->seeds.front().policy;
+    const Result<std::vector<std::string>> lines = origin(run, *judged);
+    if (!lines) return lines.error();
+    policy.origin = *lines;
+  } else {
+    actions = greedy_policy(run.trainings().front().learner().estimates());
+    policy.origin = {learned_by(run), run.world().mdp
+                                          ? "No certificate: " + message(judged.error()) + "."
+                                          : "No certificate: the model is not known."};
+  }
+  policy.policy = actions;
+  return target.policy(policy);
+}
+
+Result<std::string> network_text(const ExportOptions& options, const ExportTarget& target,
+                                 const Run& run, std::shared_ptr<const LearnedNetwork> network) {
+  Result<NetworkExport> what = network_export(run.world(), std::move(network));
+  if (!what) {
+    return Error{run_file(options.run), 0, 0, "not exported: " + what.error().expected, ""};
+  }
+  if (!options.name.empty()) what->name = options.name;
+  what->method = run.settings().learn.method;
+  what->discount = run.discount();
+  what->origin = {learned_by(run)};
+  return target.network(*what);
+}
+
+/// Why this run cannot be written so, and how it can; "" = it can.
+std::string refused(const Run& run, const ExportTarget& target, bool network) {
+  const std::string missing = no_table(run);
+  const LearnProgress::Halt halt = run.trainings().front().learner().progress().halt;
+  if (network && halt == LearnProgress::Halt::diverged) {
+    return "its values have left every bound";
+  }
+  if (network && target.network != nullptr) return "";
+  if (missing.empty() && target.policy != nullptr) return "";
+  const std::string& method = run.settings().learn.method;
+  if (missing.empty() && run.entry().traits.networks) {
+    return "its network reads letters of names, which no such file tells of; --inputs auto";
+  }
+  if (missing.empty()) {
+    return fmt::format(
+        "{} learned a table, no network; --to c, json, csv or moves expected, not '{}'", method,
+        target.name);
+  }
+  if (network) return missing + "; --to c, onnx or safetensors expected";
+  if (target.policy != nullptr) return missing;
+  return method + " learned a function that is no network; play and evaluate take such a run";
+}
+
+Result<Exported> exported(const ExportOptions& options, const ExportTarget& target) {
   const std::string file = run_file(options.run);
   const Result<Run> run = Run::load(file, false);
   if (!run) return run.error();
   const std::string reason = unsound(*run);
   if (!reason.empty()) return Error{file, 0, 0, "not exported: " + reason, ""};
-  const Result<std::shared_ptr<const Mdp>> states = listed(run->world());
-  if (!states) return Error{file, 0, 0, states.error().expected, ""};
-  PolicyExport policy;
-  policy.mdp = states->get();
-  policy.name = options.name.empty() ? run->world().name : options.name;
-  const Result<JudgedRun> judged = judge_run(*run, 1);
-  std::vector<Action> actions;
-  if (judged) {
-    actions = judged->seeds.front().policy;
-    const Result<std::vector<std::string>> lines = origin(*run, *judged);
-    if (!lines) return lines.error();
-    policy.origin = *lines;
-  } else {
-    actions = greedy_policy(run->trainings().front().learner().estimates());
-    policy.origin = {learned_by(*run), run->world().mdp
-                                           ? "No certificate: " + message(judged.error()) + "."
-                                           : "No certificate: the model is not known."};
-  }
-  policy.policy = actions;
-  Result<std::string> text = target.write(policy);
+  const auto network = run->trainings().front().learner().network();
+  const std::string refusal = refused(*run, target, network != nullptr);
+  if (!refusal.empty()) return Error{file, 0, 0, "not exported: " + refusal, ""};
+  // Where states are numbered a table says it all.
+  const bool as_policy = target.policy != nullptr && no_table(*run).empty();
+  Result<std::string> text =
+      as_policy ? policy_text(options, target, *run) : network_text(options, target, *run, network);
   if (!text) return text.error();
   return Exported{std::move(*text), run->source().name};
 }
 
-Exit export_policy(const ExportOptions& options) {
-  const Result<const Target*> target = find_target(options);
+Exit export_run(const ExportOptions& options) {
+  const Result<const ExportTarget*> target = find_target(options);
   if (!target) return fail(target.error());
   const Result<Exported> out = exported(options, **target);
   if (!out) return fail(out.error());
@@ -137,15 +192,20 @@ Exit export_policy(const ExportOptions& options) {
 
 }  // namespace
 
+std::span<const ExportTarget> export_targets() {
+  return targets;
+}
+
 void declare_export(Options& options) {
   auto given = std::make_shared<ExportOptions>();
   options.word("run", given->run, "a saved run: run.quoll, or the folder of a run");
-  options.option("--to", &given->to, "c | json | csv | moves",
-                 "what to write; moves: x,y,state,move of a grid; without: by the name of -o");
+  options.option("--to", &given->to, "c | json | csv | moves | onnx | safetensors",
+                 "what to write; moves: x,y,state,move of a grid; onnx, safetensors: a network; "
+                 "without: by the name of -o");
   options.option("-o,--output", &given->file, "FILE", "the file to write; without: on stdout");
   options.option("--name", &given->name, "NAME",
                  "what the C names begin with; without: the world's name");
-  options.run([given] { return export_policy(*given); });
+  options.run([given] { return export_run(*given); });
 }
 
 }  // namespace quoll::cli

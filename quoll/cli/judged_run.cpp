@@ -24,13 +24,21 @@ std::string unsound(const Run& run) {
          "--rule standard";
 }
 
+std::string no_table(const Run& run) {
+  if (!run.entry().traits.approximates) return "";
+  if (!run.trainings().front().learner().estimates().row_begin.empty()) return "";
+  return run.settings().learn.method +
+         " learned a function of what is observed, no table of states; play and evaluate take such "
+         "a run, and show its curve";
+}
+
 Result<JudgedRun> judge_run(const Run& run, std::size_t most) {
   const Mdp* mdp = run.world().mdp.get();
   if (mdp == nullptr) {
     return Error{"", 0, 0, "no certificate: the model of " + run.world().name + " is not known",
                  ""};
   }
-  const Result<TabularSetup> setup = resolve(run.settings().learn, run.world());
+  const Result<LearnSetup> setup = resolve(run.settings().learn, run.world());
   if (!setup) return setup.error();
   SolveSettings settings;
   settings.discount = run.discount();

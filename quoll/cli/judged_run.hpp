@@ -16,6 +16,9 @@ namespace quoll::cli {
 /// The reason why a run may be neither certified nor exported; empty = it may.
 std::string unsound(const Run& run);
 
+/// Why this run has no table of states, or "" when it has.
+std::string no_table(const Run& run);
+
 /// "rule standard", or the method where that has no choice of rules.
 std::string rule_words(const LearnerEntry& entry);
 /// The member "rule" of a JSON object: null where the method has no choice of rules.

@@ -1,5 +1,7 @@
 // quoll learn WORLD: learn by experience.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <limits>
@@ -36,12 +38,16 @@ struct LearnOptions {
 std::string resolved_text(RunSettings settings, const World& world, const std::string& key) {
   const std::vector<Setting> list = settings_of(settings);
   const Setting& setting = *find(list, key);
-  const Result<TabularSetup> setup = resolve(settings.learn, world);
+  const Result<LearnSetup> setup = resolve(settings.learn, world);
   if (!setup) return text_of(setting);
   if (setting.name == "discount") return shortest(setup->discount);
   if (setting.name == "episode_steps") return std::to_string(setup->episode_steps);
   if (setting.name == "tolerance") return shortest(setup->stable.tolerance);
   if (setting.name == "step_size") return setup->step_size.text();
+  if (setting.name == "explore") return std::string(setup->exploration.name());
+  if (setting.name == "epsilon" && settings.learn.epsilon == "auto") {
+    return std::string((*find_learner(settings.learn))->traits.epsilon);
+  }
   return text_of(setting);
 }
 
@@ -85,11 +91,16 @@ Result<void> same_world(const LearnOptions& options, const Result<World>& given,
 }
 
 Result<Run> resume(const LearnOptions& options, const RunSettings& limits, bool watch) {
-  const Result<World> given = options.world.open();
+  const bool named = !options.world.name.empty();
+  const Result<World> given = named ? options.world.open() : Error{};
   Result<Run> run = Run::load(options.resume_file(), watch, given ? &*given : nullptr);
   if (!run) return run;
+  if (run->entry().traits.taught) {
+    return Error{options.resume_file(), 0, 0,
+                 "a distilled network learns from its table only; quoll distil makes another", ""};
+  }
   Result<void> same = same_settings(options, *run);
-  if (same) same = same_world(options, given, *run);
+  if (same && named) same = same_world(options, given, *run);
   if (!same) return same.error();
   const RunSettings& saved = run->settings();
   if (!limits.certified.empty() &&
@@ -108,7 +119,9 @@ Result<Run> resume(const LearnOptions& options, const RunSettings& limits, bool 
 Result<double> save_pause(const LearnOptions& options) {
   if (options.save_every.empty()) return 0.0;
   const Result<double> seconds = parse_duration(options.save_every, "--save-every");
-  if (seconds && options.save.empty()) return Error{"--save-every", 0, 0, "needs --save FILE", ""};
+  if (seconds && options.save.empty() && options.output.file.empty()) {
+    return Error{"--save-every", 0, 0, "needs --save FILE or -o FOLDER", ""};
+  }
   return seconds;
 }
 
@@ -122,11 +135,8 @@ Result<RunSettings> limits_of(const LearnOptions& options) {
   if (certified) {
     const Result<void> taken = take_certified(limits.until, limits);
     if (!taken) return taken.error();
-  } else if (!limits.until.empty() && limits.until != "stable") {
-    return Error{
-        "--until", 0, 0,
-        "stable, certified:EPS or certified:EPS,model expected, not '" + limits.until + "'",
-        nearest(limits.until, std::vector<std::string>{"stable", "certified:0.01"})};
+  } else if (const Result<void> goal = check_until(limits.until); !goal) {
+    return goal.error();
   }
   if (!limits.time.empty()) {
     const Result<double> seconds = parse_duration(limits.time, "--time");
@@ -185,22 +195,26 @@ Result<void> advance(Run& run, const LearnOptions& options, const RunSettings& l
                      RunFiles& files) {
   const Sink sink = [&](const Record& record) { files.record(record); };
   ProgressDisplay display(options.output.quiet);
-  const std::uint64_t total = limits.steps * run.trainings().size();
+  const std::size_t seeds = run.trainings().size();
+  const std::uint64_t steps =
+      !limits.has_limit() && run.entry().traits.approximates ? default_steps : limits.steps;
+  const std::uint64_t total = steps * seeds;
   std::uint64_t resumed = 0;
   for (const Training& training : run.trainings()) resumed += training.learner().progress().steps;
   const auto begun = std::chrono::steady_clock::now();
   const auto keep_going = [&](const RunProgress& now) {
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begun;
-    const std::string extra =
-        now.mean_return ? "return " + number_text(*now.mean_return) : std::string();
+    std::string extra = now.mean_return ? "return " + number_text(*now.mean_return) : std::string();
+    if (seeds > 1) extra += fmt::format("  {} of {} seeds", now.finished, seeds);
     display.show(now.steps, total, seconds.count(), extra, resumed);
     return !interrupted();
   };
   for (;;) {
     const bool finished =
         run.advance(limits, pause, keep_going, files.has_folder() ? sink : Sink());
-    const Result<void> saved = files.save(run);
+    Result<void> saved = files.save(run);
     if (finished || interrupted()) return saved;
+    if (saved) saved = files.write_folder(run);
     if (!saved) fail(saved.error());
   }
 }
@@ -213,20 +227,28 @@ Exit exit_status(const Run& run, const RunSettings& limits) {
     }
     if (limits.until == "stable" && stop != Stop::stable) return goal_missed;
     if (!limits.certified.empty() && stop != Stop::certified) return goal_missed;
+    if (limits.mean_return() && stop != Stop::reached) return goal_missed;
   }
   return done;
 }
 
-// Prints the result.
+// Prints the result, and writes it where it is wanted.
 Exit tell(const Run& run, const LearnOptions& options, const RunSettings& limits, Learner* twin,
-          const ComingUpdates* coming) {
+          const ComingUpdates* coming, const RunFiles& files) {
   const Result<StandardBeside> beside = standard_beside(run, twin);
   if (!beside) return fail(beside.error());
-  const LearnStory story{options.output.all, limits.until == "stable", coming, &*beside};
+  const LearnStory story{options.output.all,
+                         limits.until == "stable",
+                         limits.mean_return().has_value(),
+                         limits.has_limit(),
+                         coming,
+                         &*beside};
   const RunResult result = run.result(true);
   const std::string text = options.output.json ? learn_json(run, result, story)
                                                : learn_text(run, result, stdout_style(), story);
   if (!print(text)) return user_error;
+  const Result<void> kept = files.write_result(run, result);
+  if (!kept) return fail(kept.error());
   if (options.certificate.empty()) return done;
   const Result<void> written = write_experience(options.certificate, run, result);
   return written ? done : fail(written.error());
@@ -266,7 +288,9 @@ Exit learn(const LearnOptions& options) {
     return fits ? learn_log(options.world, options.output, options.how, options.logs)
                 : fail(fits.error());
   }
-  if (options.world.name.empty()) {
+  const bool found =
+      !options.resume.empty() && options.world.with.empty() && !options.world.aimed();
+  if (options.world.name.empty() && !found) {  // a saved run knows its world
     return fail({"learn", 0, 0,
                  "WORLD expected: a built-in world (see 'quoll list worlds') or a file", ""});
   }
@@ -276,6 +300,7 @@ Exit learn(const LearnOptions& options) {
   if (!pause) return fail(pause.error());
   Result<Run> run = open_run(options, *limits);
   if (!run) return fail(run.error());
+  if (const Result<void> fits = run->allows(*limits); !fits) return fail(fits.error());
   run->set_threads(options.threads);
   if (!options.certificate.empty()) {
     const Result<void> writable = may_write_experience(*run);
@@ -296,7 +321,7 @@ Exit learn(const LearnOptions& options) {
   catch_interrupts();
   const Result<void> saved = advance(*run, options, *limits, *pause, files);
   const Result<void> written = files.write_folder(*run);
-  const Exit told = tell(*run, options, *limits, twin->get(), coming ? &*coming : nullptr);
+  const Exit told = tell(*run, options, *limits, twin->get(), coming ? &*coming : nullptr, files);
   if (!saved) return fail(saved.error());
   if (!written) return fail(written.error());
   if (told != done) return told;
@@ -330,9 +355,10 @@ void declare_learn(Options& options) {
                  "go on with a saved run, a file or a run folder");
   options.option("--from-data", &given->logs, "LOG.csv",
                  "learn from steps that somebody took, with or without WORLD; may be repeated");
-  given->output.declare(options,
-                        "a folder for settings.toml, records.csv and run.quoll; with --from-data "
-                        "a file .csv or .json for the policy");
+  given->output.declare(
+      options,
+      "a folder for settings.toml, records.csv, run.quoll, seeds.csv, curve.svg and "
+      "TensorBoard's events; with --from-data a file .csv or .json for the policy");
   options.run([given] { return learn(*given); });
 }
 

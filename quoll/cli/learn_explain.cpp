@@ -27,7 +27,7 @@ Result<std::unique_ptr<Learner>> copy_of(Learner& learner, const Run& run) {
 }
 
 bool whole_steps(const Run& run) {
-  const Result<TabularSetup> setup = resolve(run.settings().learn, run.world());
+  const Result<LearnSetup> setup = resolve(run.settings().learn, run.world());
   return setup && setup->step_size.one();
 }
 
@@ -56,6 +56,11 @@ std::uint64_t chunk(const RunSettings& limits, const LearnProgress& now, std::ui
 Result<ComingUpdates> coming_updates(Run& run, const RunSettings& limits, bool all) {
   if (!run.world().mdp) {
     return Error{"--explain", 0, 0, "the model of " + run.world().name + " is not known", ""};
+  }
+  if (run.entry().traits.approximates) {
+    return Error{"--explain", 0, 0,
+                 "shows the updates of a table; " + run.settings().learn.method + " keeps none",
+                 ""};
   }
   Learner& first = run.trainings().front().learner();
   Result<std::unique_ptr<Learner>> copy = copy_of(first, run);

@@ -28,12 +28,15 @@ class RunFiles {
   Result<void> save(Run& run) const;
   /// The folder, if there is one: run.quoll, settings.toml, records.csv.
   Result<void> write_folder(Run& run) const;
+  /// What became of the run, in the same folder: seeds.csv, a line for each seed; curve.svg; and
+  /// the records for TensorBoard, tensorboard/seed-N/, with time as seconds of the processor.
+  Result<void> write_result(const Run& run, const RunResult& result) const;
 
  private:
   Result<void> prepare_folder(Run& run);
   Result<void> take_over(const std::string& path, const Run& run);
   std::string records_of_resumed(const Run& run) const;
-  std::string in_folder(const char* name) const { return folder_ + "/" + name; }
+  std::string in_folder(const std::string& name) const { return folder_ + "/" + name; }
 
   std::string save_, folder_, resumed_;
   std::vector<std::string> rows_;  ///< lines of records.csv, per index of the seed

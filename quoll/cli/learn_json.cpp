@@ -4,17 +4,10 @@
 #include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/learn_certificate.hpp"
 #include "quoll/cli/learn_report.hpp"
+#include "quoll/nn/arithmetic.hpp"
 
 namespace quoll::cli {
 namespace {
-
-void optional_bool(JsonWriter& json, std::string_view key, const std::optional<bool>& value) {
-  json.key(key);
-  if (value)
-    json.value(*value);
-  else
-    json.null();
-}
 
 void write_q(JsonWriter& json, const Mdp& mdp, const Estimates& estimates,
              const std::vector<double>& q_star, const LearnStory& story) {
@@ -53,7 +46,7 @@ void write_policy(JsonWriter& json, const Mdp& mdp, const std::vector<Action>& p
 }
 
 void write_evaluation(JsonWriter& json, const Run& run, const RunResult& result) {
-  if (!run.world().mdp || run.settings().evaluation_episodes == 0) {
+  if (run.settings().evaluation_episodes == 0) {
     json.null_member("evaluation");
     return;
   }
@@ -62,16 +55,19 @@ void write_evaluation(JsonWriter& json, const Run& run, const RunResult& result)
   json.member("episodes", run.settings().evaluation_episodes);
   json.member("mean", s.mean).member("median", s.median).member("iqm", s.iqm);
   json.member("minimum", s.minimum);
-  json.key("lower");
-  if (s.lower)
-    json.value(*s.lower);
-  else
-    json.null();
-  json.key("upper");
-  if (s.upper)
-    json.value(*s.upper);
-  else
-    json.null();
+  json.member("lower", s.lower).member("upper", s.upper);
+  json.member("threshold", run.world().traits.solved).member("solved", result.solved);
+  json.end_object();
+}
+
+void write_reached(JsonWriter& json, const std::optional<ReturnReached>& reached) {
+  if (!reached) {
+    json.null_member("reached");
+    return;
+  }
+  json.key("reached").begin_object();
+  json.member("steps", reached->steps).member("episodes", reached->episodes);
+  json.member("processor_seconds", reached->processor_seconds).member("mean", reached->mean);
   json.end_object();
 }
 
@@ -80,13 +76,16 @@ void write_runs(JsonWriter& json, const RunResult& result) {
   for (const SeedResult& seed : result.seeds) {
     json.begin_object().member("seed", seed.seed).member("steps", seed.steps);
     json.member("stop", stop_name(seed.stop));
-    optional_bool(json, "optimal", seed.optimality ? seed.optimality->optimal : std::nullopt);
+    json.member("optimal", seed.optimality ? seed.optimality->optimal : std::nullopt);
     json.key("regret");
     if (seed.optimality)
       json.value(seed.optimality->regret);
     else
       json.null();
-    json.member("mean", seed.played.mean).end_object();
+    json.member("mean", seed.played.mean).member("training_return", seed.training_return);
+    json.member("processor_seconds", seed.processor_seconds);
+    write_reached(json, seed.reached);
+    json.end_object();
   }
   json.end_array();
 }
@@ -98,8 +97,9 @@ void write_verdict(JsonWriter& json, const SeedResult& seed) {
     }
     return;
   }
-  optional_bool(json, "optimal", seed.optimality->optimal);
-  json.member("proof", seed.optimality->proof).member("regret", seed.optimality->regret);
+  json.member("optimal", seed.optimality->optimal)
+      .member("proof", seed.optimality->proof)
+      .member("regret", seed.optimality->regret);
   json.member("optimal_states", seed.optimal_states);
   json.member("unreachable", seed.optimality->unreachable);
 }
@@ -156,11 +156,14 @@ std::string learn_json(const Run& run, const RunResult& result, const LearnStory
   if (run.choice()) json.member("chosen", run.choice()->options());
   write_rule(json, run.entry());
   json.member("discount", run.discount()).member("seed", learn.seed);
+  if (run.entry().traits.networks) {
+    json.member("arithmetic", nn::arithmetic().fused ? "fused" : "plain");
+  }
   json.member("steps", steps).member("seconds", result.seconds);
   json.member("steps_per_second",
               result.seconds > 0.0 ? static_cast<double>(steps) / result.seconds : 0.0);
   json.member("episodes", episodes).member("stop", stop_name(first.stop));
-  if (mdp) {
+  if (mdp && no_table(run).empty()) {
     const Estimates estimates = run.trainings().front().learner().estimates();
     write_q(json, *mdp, estimates,
             result.exact ? q_star_all(*mdp, *result.exact, run.discount()) : std::vector<double>(),

@@ -116,6 +116,14 @@ std::string counts_text(const LogLearning& learned) {
   return text;
 }
 
+// As the first word of a sentence; other letters than a to z stay.
+std::string capitalised(std::string text) {
+  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') {
+    text.front() = static_cast<char>(text.front() - 'a' + 'A');
+  }
+  return text;
+}
+
 std::string bounds_text(const LogLearning& learned) {
   if (!learned.rewards) {
     const RewardRange& seen = learned.seen;
@@ -128,8 +136,8 @@ std::string bounds_text(const LogLearning& learned) {
   const std::optional<BoundsReport> report = report_of(learned);
   if (!report) return "No bounds on values: " + learned.no_bounds + ".\n";
   const State widest = learned.certifier->certificate().widest;
-  std::string certainty = certainty_text(*report) + (report->confidence ? "" : ",");
-  certainty.front() += 'A' - 'a';
+  const std::string certainty =
+      capitalised(certainty_text(*report)) + (report->confidence ? "" : ",");
   return fmt::format("{} the optimal value of {} lies in [{}, {}].\n", certainty,
                      learned.names->state_name(widest), number_text(report->lower),
                      number_text(report->upper)) +

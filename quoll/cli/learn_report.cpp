@@ -9,7 +9,10 @@
 
 #include "quoll/base/text.hpp"
 #include "quoll/cli/explain.hpp"
+#include "quoll/cli/judged_run.hpp"
+#include "quoll/cli/seeds_curve.hpp"
 #include "quoll/model/graph.hpp"
+#include "quoll/nn/arithmetic.hpp"
 #include "quoll/report/curve.hpp"
 #include "quoll/report/explain_text.hpp"
 #include "quoll/report/grid_text.hpp"
@@ -36,20 +39,23 @@ namespace {
 
 std::string heading(const Run& run) {
   const LearnSettings& learn = run.settings().learn;
-  const Result<TabularSetup> setup = resolve(learn, run.world());
+  const Result<LearnSetup> setup = resolve(learn, run.world());
   std::string text =
       fmt::format("learn {}   {}{}, discount {}", run.world().name, learn.method,
                   run.entry().rule.empty() ? "" : ", rule " + learn.rule, shortest(run.discount()));
   if (setup) {
-    text += fmt::format(", step size {}, actions {}, starts {}, episodes of at most {} steps",
-                        setup->step_size.text(),
-                        run.entry().traits.directed ? "by hope" : std::string_view(learn.explore),
+    if (!run.entry().traits.approximates) text += ", step size " + setup->step_size.text();
+    text += fmt::format(", actions {}, starts {}, episodes of at most {} steps",
+                        run.entry().traits.directed ? "by hope" : setup->exploration.name(),
                         learn.start, setup->episode_steps);
   }
   if (run.settings().seeds > 1) {
     text += fmt::format(", seeds {} to {}", learn.seed, learn.seed + run.settings().seeds - 1);
   } else {
     text += fmt::format(", seed {}", learn.seed);
+  }
+  if (run.entry().traits.networks) {
+    text += fmt::format(", {} arithmetic", nn::arithmetic().fused ? "fused" : "plain");
   }
   return text + "\n";
 }
@@ -59,7 +65,7 @@ std::string stop_sentence(const Run& run, const SeedResult& seed, const LearnSto
   const std::string after =
       fmt::format(" after {}, {}, {}", counted(seed.steps, "step"),
                   counted(seed.episodes, "episode"), duration_text(seed.seconds));
-  const Result<TabularSetup> setup = resolve(run.settings().learn, run.world());
+  const Result<LearnSetup> setup = resolve(run.settings().learn, run.world());
   switch (seed.stop) {
     case Stop::stable: {
       const bool proved = setup && run.entry().sound && run.world().traits.deterministic &&
@@ -72,15 +78,25 @@ std::string stop_sentence(const Run& run, const SeedResult& seed, const LearnSto
     }
     case Stop::certified:
       return "certified" + after;
+    case Stop::reached:
+      return fmt::format(
+          "reached after {}, {}, {} of the processor: the last {} training episodes returned {} on "
+          "average, as asked",
+          counted(seed.reached->steps, "step"), counted(seed.reached->episodes, "episode"),
+          duration_text(seed.reached->processor_seconds), ReturnWatch::window,
+          number_text(seed.reached->mean));
     case Stop::diverged:
       return "stopped" + after + ": the values have left every bound";
     case Stop::budget:
-      return (run.settings().certified.empty() ? "not stable" : "not certified") + after +
-             ": the budget is used up";
+      return (run.entry().traits.approximates    ? "not reached"
+              : run.settings().certified.empty() ? "not stable"
+                                                 : "not certified") +
+             after + ": the budget is used up";
     case Stop::interrupted:
       return "interrupted" + after;
     default:
-      return missed_stable(seed, story) ? "not stable" + after : "stopped" + after + " as asked";
+      if (missed_stable(seed, story)) return "not stable" + after;
+      return "stopped" + after + (story.bounded ? " as asked" : ", as without a limit");
   }
 }
 
@@ -137,41 +153,83 @@ std::string verdict(const Run& run, const RunResult& result, const SeedResult& s
   return text + "\n";
 }
 
-std::string seeds_table(const Run& run, const RunResult& result) {
-  TextTable table({{"seed"},
-                   {"steps", TextTable::Align::right},
-                   {"stop"},
-                   {"optimal"},
-                   {"regret", TextTable::Align::point},
-                   {"mean return", TextTable::Align::point},
-                   {"ended", TextTable::Align::right}});
-  const bool sound = run.entry().sound;
-  for (const SeedResult& seed : result.seeds) {
-    const bool judged = seed.optimality.has_value();
-    const bool decided = judged && seed.optimality->optimal;
-    table.row({std::to_string(seed.seed), grouped(seed.steps), std::string(stop_name(seed.stop)),
-               !sound                      ? "-"
-               : !decided                  ? "?"
-               : *seed.optimality->optimal ? "yes"
-                                           : "no",
-               judged ? number_text(seed.optimality->regret) : "", number_text(seed.played.mean),
-               fmt::format("{:.0f} %", 100 * seed.played.ended)});
+// What is told of a seed besides its steps and its return: the exact verdict where a model is
+// known, the moment its return was reached where that was asked for, the mean of the last training
+// episodes of methods without a table.
+std::string seeds_rows(const Run& run, const RunResult& result, const LearnStory& story) {
+  const bool model = run.world().mdp != nullptr, sound = run.entry().sound;
+  using Align = TextTable::Align;
+  std::vector<TextTable::Column> columns{{"seed"}, {"steps", Align::right}, {"stop"}};
+  if (story.until_return) {
+    columns.insert(columns.end(), {{"reached at", Align::right}, {"processor", Align::right}});
   }
+  if (model) columns.insert(columns.end(), {{"optimal"}, {"regret", Align::point}});
+  const bool training = run.entry().traits.approximates;
+  if (training) columns.push_back({"in training", Align::point});
+  columns.insert(columns.end(), {{"mean return", Align::point}, {"ended", Align::right}});
+  TextTable table(std::move(columns));
+  for (const SeedResult& seed : result.seeds) {
+    std::vector<std::string> row{std::to_string(seed.seed), grouped(seed.steps),
+                                 std::string(stop_name(seed.stop))};
+    if (story.until_return) {
+      row.push_back(seed.reached ? grouped(seed.reached->steps) : "-");
+      row.push_back(seed.reached ? fmt::format("{:.2f} s", seed.reached->processor_seconds) : "-");
+    }
+    if (model) {
+      const bool decided = seed.optimality && seed.optimality->optimal;
+      row.push_back(!sound ? "-" : !decided ? "?" : *seed.optimality->optimal ? "yes" : "no");
+      row.push_back(seed.optimality ? number_text(seed.optimality->regret) : "");
+    }
+    if (training) row.push_back(seed.training_return ? number_text(*seed.training_return) : "-");
+    row.push_back(number_text(seed.played.mean));
+    row.push_back(fmt::format("{:.0f} %", 100 * seed.played.ended));
+    table.row(std::move(row));
+  }
+  return table.text();
+}
+
+// "Reached by 29 of 30 seeds: ...".
+std::string reached_line(const RunResult& result) {
+  std::vector<double> steps, seconds;
+  for (const SeedResult& seed : result.seeds) {
+    if (!seed.reached) continue;
+    steps.push_back(static_cast<double>(seed.reached->steps));
+    seconds.push_back(seed.reached->processor_seconds);
+  }
+  std::string text = fmt::format("reached by {} of {} seeds", steps.size(), result.seeds.size());
+  if (steps.empty()) return text + "\n";
+  return text + fmt::format(", in the median of these after {} steps and {:.2f} s of a processor\n",
+                            grouped(static_cast<std::uint64_t>(statistics(steps).median)),
+                            statistics(seconds).median);
+}
+
+std::string seeds_table(const Run& run, const RunResult& result, const LearnStory& story) {
   const Statistics& s = result.statistics;
-  std::string text = table.text();
+  std::string text = seeds_rows(run, result, story);
   text += fmt::format("mean {}, median {}, interquartile mean {}, smallest {}", number_text(s.mean),
                       number_text(s.median), number_text(s.iqm), number_text(s.minimum));
   if (s.lower) {
     text += fmt::format(", 95 % interval of the mean [{}, {}]", number_text(*s.lower),
                         number_text(*s.upper));
   }
-  return text + "\n";
+  text += "\n";
+  if (result.solved) {
+    text +=
+        fmt::format("solved (mean return of at least {}): {} of {} seeds\n",
+                    number_text(*run.world().traits.solved), *result.solved, result.seeds.size());
+  }
+  return story.until_return ? text + reached_line(result) : text;
 }
 
 std::string curve_line(const Run& run, const TerminalStyle& style) {
+  const std::vector<Training>& seeds = run.trainings();
   std::vector<double> values;
-  for (const LearningCurve::Bin& bin : run.trainings().front().curve().bins()) {
-    if (bin.episodes > 0) values.push_back(bin.mean());
+  if (seeds.size() > 1) {
+    for (const CurvePoint& point : curve_over_seeds(run).points) values.push_back(point.value);
+  } else {
+    for (const LearningCurve::Bin& bin : seeds.front().curve().bins()) {
+      if (bin.episodes > 0) values.push_back(bin.mean());
+    }
   }
   if (values.size() < 2) return "";
   return fmt::format("return  {}  {} -> {}\n", sparkline(values, 50, style.unicode),
@@ -245,7 +303,7 @@ std::string learned_text(const Run& run, const RunResult& result, const Terminal
 }  // namespace
 
 bool missed_stable(const SeedResult& seed, const LearnStory& story) {
-  return (seed.stop == Stop::budget && !seed.certificate) ||
+  return (seed.stop == Stop::budget && !seed.certificate && !story.until_return) ||
          (story.until_stable &&
           (seed.stop == Stop::steps || seed.stop == Stop::episodes || seed.stop == Stop::time));
 }
@@ -254,7 +312,7 @@ std::vector<PairVisits> least_visited(const Run& run, const RunResult& result,
                                       const LearnStory& story) {
   std::size_t seed = 0;
   while (seed < result.seeds.size() && !missed_stable(result.seeds[seed], story)) ++seed;
-  const Result<TabularSetup> setup = resolve(run.settings().learn, run.world());
+  const Result<LearnSetup> setup = resolve(run.settings().learn, run.world());
   if (seed == result.seeds.size() || !run.world().mdp || !setup) return {};
   const Mdp& mdp = *run.world().mdp;
   const Estimates estimates = run.trainings()[seed].learner().estimates();
@@ -284,7 +342,8 @@ std::string learn_text(const Run& run, const RunResult& result, const TerminalSt
     text += "Chosen: " + run.choice()->options() + "; " + run.choice()->reason + ".\n";
   }
   if (result.seeds.size() > 1) {
-    text += "\n" + printed_text(run, story) + seeds_table(run, result);
+    text += "\n" + printed_text(run, story) + seeds_table(run, result, story);
+    if (!run.world().mdp) text += curve_line(run, style);
     text += least_visited_text(run, result, story);
     if (!run.entry().sound) text += verdict(run, result, first);
     return text + next_steps(run);
@@ -292,7 +351,7 @@ std::string learn_text(const Run& run, const RunResult& result, const TerminalSt
   text += stop_sentence(run, first, story) + "\n\n";
   const std::string printed = printed_text(run, story);
   if (!printed.empty()) text += printed + "\n";
-  if (run.world().mdp) text += learned_text(run, result, style, story);
+  if (run.world().mdp && no_table(run).empty()) text += learned_text(run, result, style, story);
   text += least_visited_text(run, result, story);
   text += impossible_text(run, first.impossible);
   text += experience_text(run, result);
@@ -302,6 +361,11 @@ std::string learn_text(const Run& run, const RunResult& result, const TerminalSt
     text += fmt::format("greedy policy: mean return {} over {}, {:.0f} % reach an end\n",
                         number_text(first.played.mean), counted(first.played.episodes, "episode"),
                         100 * first.played.ended);
+    if (result.solved) {
+      text +=
+          fmt::format("solved: {} (a mean return of at least {})\n",
+                      *result.solved > 0 ? "yes" : "no", number_text(*run.world().traits.solved));
+    }
     text += unknown_text(first.played);
   }
   return text + next_steps(run);

@@ -13,6 +13,8 @@ namespace quoll::cli {
 struct LearnStory {
   bool all = false;                        ///< complete lists
   bool until_stable = false;               ///< --until stable was asked for
+  bool until_return = false;               ///< --until return:R was
+  bool bounded = false;                    ///< a limit or a goal was asked for
   const ComingUpdates* coming = nullptr;   ///< of --explain
   const StandardBeside* beside = nullptr;  ///< of the rule as-printed
 };

@@ -10,6 +10,7 @@
 #include "quoll/base/json.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/common.hpp"
+#include "quoll/cli/export_targets.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/learn/learner.hpp"
 #include "quoll/model/formats/format.hpp"
@@ -168,6 +169,15 @@ std::vector<Line> format_lines() {
   return lines;
 }
 
+std::vector<Line> export_lines() {
+  std::vector<Line> lines;
+  for (const ExportTarget& target : export_targets()) {
+    lines.push_back(
+        {std::string(target.name), std::string(target.extension), std::string(target.summary)});
+  }
+  return lines;
+}
+
 std::vector<Line> solver_lines() {
   std::vector<Line> lines;
   for (const SolverEntry& entry : solvers()) {
@@ -212,7 +222,7 @@ class Lines final : public Topic {
   Make lines_;
 };
 
-std::array<std::unique_ptr<Topic>, 6> topics() {
+std::array<std::unique_ptr<Topic>, 7> topics() {
   const auto lines = [](std::string_view name, std::string_view second, Lines::Make make) {
     return std::make_unique<Lines>(name, second, make);
   };
@@ -221,6 +231,7 @@ std::array<std::unique_ptr<Topic>, 6> topics() {
           lines("explorations", "", [] { return named(exploration_names, exploration_summaries); }),
           lines("starts", "", [] { return named(start_names, start_summaries); }),
           lines("formats", "extension", format_lines),
+          lines("exports", "extension", export_lines),
           lines("solvers", "", solver_lines)};
 }
 
@@ -246,7 +257,8 @@ Exit list(const std::string& wanted, bool as_json) {
   if (!found) {
     return fail(
         {"list", 0, 0,
-         "worlds, methods, explorations, starts, formats or solvers expected, not '" + wanted + "'",
+         "worlds, methods, explorations, starts, formats, exports or solvers expected, not '" +
+             wanted + "'",
          nearest.best()});
   }
   return print(as_json ? json.text() + "\n" : text) ? done : user_error;
@@ -261,9 +273,10 @@ struct ListOptions {
 
 void declare_list(Options& options) {
   auto given = std::make_shared<ListOptions>();
-  options.word("topic", given->topic,
-               "worlds, methods, explorations, starts, formats or solvers; without: all of them",
-               false);
+  options.word(
+      "topic", given->topic,
+      "worlds, methods, explorations, starts, formats, exports or solvers; without: all of them",
+      false);
   options.word("name", given->name, "a world, for its parameters, aliases and source", false);
   options.flag("--json", &given->json, "print one JSON object on stdout");
   options.run([given] {

@@ -19,6 +19,8 @@ Result<std::string> run_text(const std::string& path, std::string_view world) {
   }
   const std::string reason = unsound(*run);
   if (!reason.empty()) return Error{path, 0, 0, "no policy to play by: " + reason, ""};
+  const std::string missing = no_table(*run);
+  if (!missing.empty()) return Error{path, 0, 0, "no policy to play by: " + missing, ""};
   const std::vector<Action> actions = greedy_policy(run->trainings().front().learner().estimates());
   return policy_csv({run->world().mdp.get(), actions, "", {}});
 }

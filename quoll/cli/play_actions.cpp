@@ -50,13 +50,13 @@ class UniformActions final : public Chooser {
   Rng coin_;
 };
 
-class TableActions final : public Chooser {
+class PolicyActions final : public Chooser {
  public:
   /// `guess` = a random action where the policy has none.
-  TableActions(std::string file, std::vector<Action> actions, bool guess, std::uint64_t seed)
-      : file_(std::move(file)), policy_(std::move(actions)), guess_(guess), random_(seed) {}
+  PolicyActions(std::string file, std::unique_ptr<Policy> policy, bool guess, std::uint64_t seed)
+      : file_(std::move(file)), policy_(std::move(policy)), guess_(guess), random_(seed) {}
   Result<std::optional<Action>> choose(const Player& player) override {
-    const Action action = policy_(player.now().number);
+    const Action action = player.action_of(*policy_);
     if (action != no_action) return std::optional<Action>(action);
     if (player.actions() == 0) return std::optional<Action>();
     if (guess_) return random_.choose(player);
@@ -69,7 +69,7 @@ class TableActions final : public Chooser {
 
  private:
   std::string file_;
-  TablePolicy policy_;
+  std::unique_ptr<Policy> policy_;
   bool guess_;
   UniformActions random_;
 };
@@ -164,10 +164,10 @@ Result<std::unique_ptr<Chooser>> chooser(const ActionOptions& options, const Wor
     return std::unique_ptr<Chooser>(std::make_unique<UniformActions>(seed));
   }
   if (options.policy.empty()) return std::unique_ptr<Chooser>(std::make_unique<HandActions>());
-  Result<std::vector<Action>> actions = read_policy(options.policy, world);
-  if (!actions) return actions.error();
+  Result<std::unique_ptr<Policy>> policy = read_acting(options.policy, world);
+  if (!policy) return policy.error();
   return std::unique_ptr<Chooser>(
-      std::make_unique<TableActions>(options.policy, std::move(*actions), guess, seed));
+      std::make_unique<PolicyActions>(options.policy, std::move(*policy), guess, seed));
 }
 
 }  // namespace quoll::cli

@@ -171,13 +171,21 @@ Result<std::vector<Action>> read_json_policy(const std::string& path, const Mdp&
   return builder.take();
 }
 
-Result<std::vector<Action>> read_run_policy(const std::string& path, const World& world) {
-  const Result<Run> run = Run::load(path, false);
+Result<Run> read_run(const std::string& path, const World& world) {
+  Result<Run> run = Run::load(path, false);
   if (!run) return run.error();
   const Result<void> same = check_same_world(*run, path, world);
   if (!same) return same.error();
   const std::string reason = unsound(*run);
   if (!reason.empty()) return Error{path, 0, 0, "no policy to judge: " + reason, ""};
+  return run;
+}
+
+Result<std::vector<Action>> read_run_policy(const std::string& path, const World& world) {
+  const Result<Run> run = read_run(path, world);
+  if (!run) return run.error();
+  const std::string reason = no_table(*run);
+  if (!reason.empty()) return Error{path, 0, 0, reason, ""};
   return greedy_policy(run->trainings().front().learner().estimates());
 }
 
@@ -196,6 +204,18 @@ Result<std::vector<Action>> read_policy(const std::string& path, const World& wo
   return Error{"--policy", 0, 0,
                "uniform or a file that ends in .csv, .json or .quoll expected, not '" + path + "'",
                nearest(path, std::vector<std::string>{"uniform"})};
+}
+
+Result<std::unique_ptr<Policy>> read_acting(const std::string& path, const World& world) {
+  const std::string file = run_file(path);
+  if (file.ends_with(".quoll")) {
+    const Result<Run> run = read_run(file, world);
+    if (!run) return run.error();
+    return run->trainings().front().learner().policy();
+  }
+  Result<std::vector<Action>> actions = read_policy(path, world);
+  if (!actions) return actions.error();
+  return std::unique_ptr<Policy>(std::make_unique<TablePolicy>(std::move(*actions)));
 }
 
 std::string run_file(const std::string& path) {

@@ -1,9 +1,11 @@
 #pragma once
 // A policy as a person hands it over: --policy FILE.
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "quoll/act/policy.hpp"
 #include "quoll/base/error.hpp"
 #include "quoll/env/world.hpp"
 
@@ -17,6 +19,10 @@ namespace quoll::cli {
 ///   .quoll  a saved run of the same model: greedy among the actions its first seed visited
 /// Actions are names or numbers from 0. Errors: one line with the place and the nearest name.
 Result<std::vector<Action>> read_policy(const std::string& path, const World& world);
+
+/// The same as something that acts, in every world: a run's policy may be a function of what is
+/// observed.
+Result<std::unique_ptr<Policy>> read_acting(const std::string& path, const World& world);
 
 /// A saved run: the file itself, or the file run.quoll of a run folder.
 std::string run_file(const std::string& path);

@@ -8,6 +8,7 @@
 
 #include "quoll/base/text.hpp"
 #include "quoll/cli/explored.hpp"
+#include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/report/curve_svg.hpp"
 #include "quoll/report/graph_svg.hpp"
@@ -150,7 +151,7 @@ Result<Picture> picture(const Exhibit& exhibit, const std::string& kind, const s
 Result<std::string> checked_kind(const ShowOptions& options, const World& world) {
   if (options.kind.empty()) {
     if (world.mdp) return kind_for(*world.mdp);
-    if (world.traits.states > 0 && !options.run.empty()) return std::string("q");
+    if (!options.run.empty()) return std::string(world.traits.states > 0 ? "q" : "curve");
     return Error{"show", 0, 0, "the model of " + world.name + " is not known", ""};
   }
   if (std::find(std::begin(kinds), std::end(kinds), options.kind) == std::end(kinds)) {
@@ -209,6 +210,8 @@ Exit show(const ShowOptions& options) {
                    "the saved run learns " + run->source().name + ", not " + options.world.name,
                    ""});
     }
+    const std::string missing = no_table(*run);
+    if (!missing.empty() && *kind != "curve") return fail({"show", 0, 0, missing, ""});
     const Exhibit exhibit = learned_exhibit(*run);
     if (exhibit.mdp == nullptr && *kind != "curve") {
       return fail({"show", 0, 0, "the states of " + world->name + " cannot be listed", ""});

@@ -7,6 +7,7 @@
 
 #include "quoll/base/text.hpp"
 #include "quoll/cli/learn_report.hpp"
+#include "quoll/cli/seeds_curve.hpp"
 #include "quoll/cli/show.hpp"
 #include "quoll/env/listed.hpp"
 #include "quoll/solve/solver.hpp"
@@ -38,21 +39,6 @@ void be_greedy(Exhibit& exhibit) {
       exhibit.best[c] = exhibit.visits[c] > 0 && exhibit.q[c] == exhibit.value[s];
     }
   }
-}
-
-Curve curve_of(const Training& training) {
-  Curve curve;
-  curve.name = "seed " + std::to_string(training.seed());
-  const LearningCurve& bins = training.curve();
-  std::uint64_t step = 0;
-  for (const LearningCurve::Bin& bin : bins.bins()) {
-    step += bins.width();
-    if (bin.episodes > 0) curve.points.push_back({static_cast<double>(step), bin.mean()});
-  }
-  if (const LearningCurve::Bin open = bins.open(); open.episodes > 0) {
-    curve.points.push_back({static_cast<double>(training.learner().progress().steps), open.mean()});
-  }
-  return curve;
 }
 
 }  // namespace
@@ -99,12 +85,13 @@ Exhibit learned_exhibit(const Run& run) {
       "{}: learned values, {}{}, discount {}, seed {}, {} steps", world.name, learn.method,
       learn.rule == "standard" ? "" : " " + learn.rule, shortest(run.discount()), first.seed(),
       grouped(first.learner().progress().steps));
-  for (const Training& training : run.trainings()) exhibit.curves.push_back(curve_of(training));
+  exhibit.curves = curves_of(run);
+  const Estimates estimates = first.learner().estimates();
+  if (estimates.row_begin.empty()) return exhibit;
   const Result<std::shared_ptr<const Mdp>> states = listed(world);
   if (!states) return exhibit;
   exhibit.states = *states;
   exhibit.mdp = exhibit.states.get();
-  const Estimates estimates = first.learner().estimates();
   exhibit.q = estimates.q;
   exhibit.visits = estimates.visits;
   exhibit.q_is_float = estimates.single_precision;

@@ -9,6 +9,8 @@ constexpr Verb entries[] = {
     {"evaluate", "what a policy is worth, state by state", declare_evaluate},
     {"race", "methods against the lecture's: steps and seconds until within 1 % of optimal",
      declare_race},
+    {"distil", "fit a network to a learned or solved table, and judge what it still knows",
+     declare_distil},
     {"play", "one episode, step by step, by a policy, given actions or by hand", declare_play},
     {"verify", "what a saved run can lose at most, checked independently", declare_verify},
     {"check", "what is wrong or suspicious in a world", declare_check},

@@ -15,6 +15,7 @@ void declare_learn(Options& options);
 void declare_list(Options& options);
 void declare_new(Options& options);
 void declare_race(Options& options);
+void declare_distil(Options& options);
 void declare_show(Options& options);
 void declare_solve(Options& options);
 void declare_verify(Options& options);

@@ -12,15 +12,9 @@
 #include <vector>
 
 #include "quoll/env/dynamics.hpp"
+#include "quoll/env/measured.hpp"
 
 namespace quoll {
-
-/// One observed number: what people call it, and between which values its bins lie. What is below
-/// or above falls into the first or the last bin.
-struct Measured {
-  std::string_view name;
-  double low, high;
-};
 
 /// What a struct must have to be binned: one Measured for each number of its observation.
 template <class D>

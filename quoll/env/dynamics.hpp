@@ -19,6 +19,7 @@
 //     std::string text(const Position& at) const;   // lines for people
 //     quoll::Drawing drawing(const Position& at) const;
 //     quoll::Tree observation(const Position& at) const;   // for people, if not what is above
+//     std::vector<quoll::Measured> measured() const;       // what the observed numbers are
 // What `dice` can do stands in env/dice.hpp. A Position that names its fields in a templated
 // persist(auto& archive) shows and takes them by those names.
 
@@ -199,6 +200,7 @@ World to_world(std::string name, D dynamics, const WorldFacts& facts) {
     world.traits.states = dynamics.spaces().states;
     world.traits.settable = Settable<D>;
     if constexpr (HasActionNames<D>) world.action_names = dynamics.action_names();
+    if constexpr (requires { dynamics.measured(); }) world.measured = dynamics.measured();
     world.make = [dynamics, facts](Lanes lanes) {
       if (lanes.episode_steps == 0) lanes.episode_steps = facts.episode_steps;
       return batch(dynamics, lanes, facts.seeding);

@@ -12,6 +12,7 @@
 
 #include "quoll/env/dice.hpp"
 #include "quoll/env/environment.hpp"
+#include "quoll/env/measured.hpp"
 #include "quoll/env/parameters.hpp"
 #include "quoll/model/mdp.hpp"
 
@@ -28,6 +29,8 @@ struct Traits {
   std::optional<std::pair<double, double>> running_rewards;
   enum class StepCost : std::uint8_t { cheap, dear } step_cost = StepCost::cheap;
   bool libm = false;  ///< its bits depend on the C library's functions
+  /// The mean return from which its source counts it as solved, where it says one.
+  std::optional<double> solved;
 };
 
 struct World {
@@ -38,6 +41,7 @@ struct World {
   std::uint64_t episode_steps = 0;        ///< the world's own step limit; 0 = none
   std::shared_ptr<const Mdp> mdp;         ///< the model, or null when it is not known
   std::vector<std::string> action_names;  ///< of worlds without a model; empty = numbers
+  std::vector<Measured> measured;         ///< the numbers of an observation; empty = not told
   /// What the numbered states of a world without a model are called; empty = their numbers.
   std::function<std::string(State)> state_name;
   /// Environments in one; never null.

@@ -105,7 +105,7 @@ Result<Entrant> parse_entrant(std::string_view word, RaceMode mode) {
       apply(mode == RaceMode::all ? defaults.all : defaults.start, place, entrant.settings);
   if (applied) applied = apply(given, place, entrant.settings);
   if (!applied) return applied.error();
-  const Result<const LearnerEntry*> entry = find_learner(entrant.settings);
+  const Result<const LearnerEntry*> entry = find_offered(entrant.settings);
   if (!entry) {
     Error error = entry.error();
     error.file = place;
@@ -115,6 +115,10 @@ Result<Entrant> parse_entrant(std::string_view word, RaceMode mode) {
     return Error{place, 0, 0,
                  "the rule " + entrant.settings.rule + " exists to be studied, it does not race",
                  ""};
+  }
+  // The log of a race says what was done, whatever auto may come to mean.
+  if (entrant.settings.explore == "auto" && !(*entry)->traits.approximates) {
+    entrant.settings.explore = "uniform";
   }
   if (mode == RaceMode::start && entrant.settings.start != "world") {
     return Error{
@@ -153,7 +157,7 @@ std::vector<Entrant> all_entrants(RaceMode mode) {
     const bool seen = std::any_of(entrants.begin(), entrants.end(), [&](const Entrant& one) {
       return one.settings.method == entry.method;
     });
-    if (seen || !entry.sound) continue;
+    if (seen || !entry.sound || entry.traits.approximates) continue;
     Result<Entrant> entrant = parse_entrant(entry.method, mode);
     if (entrant) entrants.push_back(std::move(*entrant));
   }

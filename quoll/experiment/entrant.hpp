@@ -30,7 +30,7 @@ Result<Entrant> parse_entrant(std::string_view word, RaceMode mode);
 /// "a,b,c"; nobody runs twice.
 Result<std::vector<Entrant>> parse_entrants(std::string_view words, RaceMode mode);
 
-/// Every method of the registry that learns what it should, with its settings for races.
+/// Every method of the registry that learns a table as it should, with its settings for races.
 std::vector<Entrant> all_entrants(RaceMode mode);
 
 /// The lecture's method in its settings for this world: in mode `all` two, of which the better one

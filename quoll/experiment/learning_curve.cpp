@@ -5,20 +5,27 @@ namespace quoll {
 bool LearningCurve::advance(std::uint64_t step, std::uint64_t episodes, double return_sum) {
   episodes_ = episodes;
   return_sum_ = return_sum;
-  if (step < boundary()) return false;
-  bins_.push_back(open());
-  closed_episodes_ = episodes_;
-  closed_return_sum_ = return_sum_;
-  if (bins_.size() == most_bins) {
-    for (std::size_t i = 0; i < most_bins / 2; ++i) {
-      const Bin& left = bins_[2 * i];
-      const Bin& right = bins_[2 * i + 1];
-      bins_[i] = {left.episodes + right.episodes, left.return_sum + right.return_sum};
-    }
-    bins_.resize(most_bins / 2);
-    width_ *= 2;
+  bool closed = false;
+  while (step >= boundary()) {
+    closed = step < boundary() + width_;
+    push(closed ? open() : Bin());
+    if (!closed) continue;
+    closed_episodes_ = episodes_;
+    closed_return_sum_ = return_sum_;
   }
-  return true;
+  return closed;
+}
+
+void LearningCurve::push(const Bin& bin) {
+  bins_.push_back(bin);
+  if (bins_.size() < most_bins) return;
+  for (std::size_t i = 0; i < most_bins / 2; ++i) {
+    const Bin& left = bins_[2 * i];
+    const Bin& right = bins_[2 * i + 1];
+    bins_[i] = {left.episodes + right.episodes, left.return_sum + right.return_sum};
+  }
+  bins_.resize(most_bins / 2);
+  width_ *= 2;
 }
 
 void LearningCurve::persist(Archive& archive) {

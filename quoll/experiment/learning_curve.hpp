@@ -25,10 +25,11 @@ class LearningCurve {
     double mean() const { return return_sum / static_cast<double>(episodes); }
   };
 
-  /// The step at which the open bin ends; a chunk must not run over it.
+  /// The step at which the open bin ends; a chunk runs over it by less than a round of lanes.
   std::uint64_t boundary() const { return width_ * (bins_.size() + 1); }
 
-  /// Counts at `step` <= boundary(), since the beginning of the run. True when a bin was closed.
+  /// Counts since the beginning of the run, at a step before boundary() or the first one known at
+  /// or beyond it; of bins jumped over the last has the episodes. True when it was closed.
   bool advance(std::uint64_t step, std::uint64_t episodes, double return_sum);
 
   std::uint64_t width() const { return width_; }
@@ -40,6 +41,8 @@ class LearningCurve {
   void persist(Archive& archive);
 
  private:
+  void push(const Bin& bin);
+
   std::uint64_t width_ = first_width;
   std::vector<Bin> bins_;
   std::uint64_t episodes_ = 0, closed_episodes_ = 0;

@@ -13,8 +13,8 @@
 namespace quoll {
 namespace {
 
-Result<TabularSetup> setup_for(LogLearning& learned, std::span<const std::string> files,
-                               const std::optional<World>& world, const RunSettings& settings) {
+Result<LearnSetup> setup_for(LogLearning& learned, std::span<const std::string> files,
+                             const std::optional<World>& world, const RunSettings& settings) {
   learned.named_by_logs = !world;
   if (world) {
     learned.world = *world;
@@ -36,7 +36,7 @@ Result<TabularSetup> setup_for(LogLearning& learned, std::span<const std::string
   learned.world.mdp = learned.names;
   learned.world.discount = settings.learn.discount;
   learned.world.traits.states = learned.names->states();
-  TabularSetup setup;
+  LearnSetup setup;
   setup.world = &learned.world;
   setup.discount = settings.learn.discount;
   setup.starts = StartStates::world(*learned.names);
@@ -86,8 +86,7 @@ std::string contradiction(const LogLearning& learned) {
          ", outside the range that was declared";
 }
 
-Result<std::optional<Certifier>> certifier_for(const LogLearning& learned,
-                                               const TabularSetup& setup,
+Result<std::optional<Certifier>> certifier_for(const LogLearning& learned, const LearnSetup& setup,
                                                const RunSettings& settings) {
   if (!setup.rewards) return std::optional<Certifier>();
   if (learned.named_by_logs && settings.successors == Successors::listed) {
@@ -135,7 +134,7 @@ void bound(LogLearning& learned) {
   learned.certifier.reset();
 }
 
-void judge_by_model(LogLearning& learned, const TabularSetup& setup) {
+void judge_by_model(LogLearning& learned, const LearnSetup& setup) {
   if (learned.named_by_logs || !learned.world.mdp) {
     learned.no_exact = "the model of " + learned.world.name + " is not known";
     return;
@@ -172,7 +171,7 @@ Result<LogLearning> learn_from_logs(std::span<const std::string> files,
                                     const std::optional<World>& world,
                                     const RunSettings& settings) {
   LogLearning learned;
-  Result<TabularSetup> setup = setup_for(learned, files, world, settings);
+  Result<LearnSetup> setup = setup_for(learned, files, world, settings);
   if (!setup) return setup.error();
   learned.discount = setup->discount;
   learned.rewards = setup->rewards;

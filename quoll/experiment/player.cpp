@@ -62,6 +62,7 @@ void Player::step(Action action) {
   Experience now = columns();
   environment_->step(now);
   state_ = next_;
+  observation_ = next_observation_;
   ++now_.t;
   now_.action = action;
   now_.reward = feedback_.reward;
@@ -72,6 +73,18 @@ void Player::step(Action action) {
   factor_ *= feedback_.turn_passes ? -discount_ : discount_;
   side_ = feedback_.turn_passes ? -side_ : side_;
   see();
+}
+
+Action Player::action_of(const Policy& policy) const {
+  State state = state_;
+  std::vector<float> observation = observation_;
+  Experience now;
+  now.state = {&state, 1};
+  now.observation = observation;
+  Action action = no_action;
+  Rng none = stream(0, "behaviour");
+  policy.act(now, {&action, 1}, {&none, 1});
+  return action;
 }
 
 Action Player::actions() const {

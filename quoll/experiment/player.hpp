@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "quoll/act/policy.hpp"
 #include "quoll/base/tree.hpp"
 #include "quoll/env/world.hpp"
 
@@ -40,6 +41,8 @@ class Player {
   void step(Action action);
 
   const Moment& now() const { return now_; }
+  /// What a policy that draws nothing does now; no_action where it knows nothing.
+  Action action_of(const Policy& policy) const;
   /// Number of actions in the present state.
   Action actions() const;
   std::string action_name(Action action) const;

@@ -3,27 +3,17 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <ctime>
 #include <mutex>
 #include <optional>
 #include <utility>
 
 #include "quoll/base/parallel.hpp"
+#include "quoll/experiment/thread_seconds.hpp"
+#include "quoll/learn/greedy_rows.hpp"
 #include "quoll/learn/learner.hpp"
 
 namespace quoll {
 namespace {
-
-// Processor seconds of this thread: other threads and programs do not count.
-double thread_seconds() {
-  timespec now{};
-#if defined(CLOCK_THREAD_CPUTIME_ID) && !defined(__wasi__)
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-#else
-  clock_gettime(CLOCK_MONOTONIC, &now);
-#endif
-  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
-}
 
 constexpr double measured_again_below = 0.02;
 
@@ -32,7 +22,10 @@ class Runner {
  public:
   Runner(std::unique_ptr<Learner> learner, const HeatCaps& caps,
          const std::function<bool()>& keep_going)
-      : learner_(std::move(learner)), caps_(caps), keep_going_(keep_going) {}
+      : learner_(std::move(learner)),
+        rows_(dynamic_cast<const GreedyRows*>(learner_.get())),
+        caps_(caps),
+        keep_going_(keep_going) {}
 
   /// Why it stopped short of `target`; nothing = it is there.
   std::optional<HeatEnd> advance_to(std::uint64_t target) {
@@ -52,16 +45,31 @@ class Runner {
     return std::nullopt;
   }
 
-  /// The greedy policy; its seconds are told, not added.
-  std::vector<Action> policy(double& seconds) const {
+  /// Whether the greedy policy is good. Asks the learner for the actions that matter; for all
+  /// values only where these are planned together.
+  bool good(const Referee& referee, RaceMode mode) {
+    reading_.reset();
+    if (rows_ != nullptr && rows_->greedy_action(0)) {
+      return referee.good([this](State s) { return *rows_->greedy_action(s); }, mode, notes_);
+    }
     const double begun = thread_seconds();
     const Estimates estimates = learner_->estimates();
-    seconds = thread_seconds() - begun;
-    return greedy_policy(estimates);
+    reading_ = thread_seconds() - begun;
+    const std::vector<Action> policy = greedy_policy(estimates);
+    return referee.good([&](State s) { return policy[s]; }, mode, notes_);
+  }
+
+  /// Seconds so far, and of reading all values once.
+  double seconds_with_reading() {
+    if (!reading_) {
+      const double begun = thread_seconds();
+      const Estimates estimates = learner_->estimates();
+      reading_ = thread_seconds() - begun;
+    }
+    return seconds_ + *reading_;
   }
 
   std::uint64_t steps() const { return steps_; }
-  double seconds() const { return seconds_; }
   /// It stopped by itself, and not because its values ran away.
   bool content() const { return learner_->progress().halt == LearnProgress::Halt::stable; }
   std::uint64_t bytes() {
@@ -72,10 +80,13 @@ class Runner {
 
  private:
   std::unique_ptr<Learner> learner_;
+  const GreedyRows* rows_;  // of it, if it has them
   const HeatCaps& caps_;
   const std::function<bool()>& keep_going_;
+  RefereeNotes notes_;
   std::uint64_t steps_ = 0, piece_ = 64;
   double seconds_ = 0.0;
+  std::optional<double> reading_;  // seconds of it at the present step
 };
 
 // The seconds of so many steps and of reading the values once, without stops on the way.
@@ -100,7 +111,6 @@ Result<Heat> run_heat(const LearnSettings& settings, const World& world, const R
   if (!learner) return learner.error();
   Runner runner(std::move(*learner), caps, keep_going);
   std::optional<Heat> first;  // at the checkpoint before this one, if the policy was good there
-  std::vector<Action> before;
   Heat now{settings.seed};
   for (;;) {
     const std::uint64_t next = std::min(next_checkpoint(runner.steps()), caps.steps);
@@ -108,12 +118,10 @@ Result<Heat> run_heat(const LearnSettings& settings, const World& world, const R
     if (stop == HeatEnd::interrupted) return Heat{settings.seed};
     const bool over = stop || runner.steps() >= caps.steps;
     if (!over && runner.steps() < referee.fewest_steps(mode)) continue;
-    double reading = 0.0;
-    std::vector<Action> policy = runner.policy(reading);
-    const bool same = !before.empty() && policy == before;
-    const bool good = same ? first.has_value() : referee.good(policy, mode);
-    before = std::move(policy);
-    now = {settings.seed, HeatEnd::reached, runner.steps(), runner.seconds() + reading, 0};
+    const bool good = runner.good(referee, mode);
+    if (good || over) {
+      now = {settings.seed, HeatEnd::reached, runner.steps(), runner.seconds_with_reading(), 0};
+    }
     if (good && first) break;
     if (good && runner.content()) {  // it is done, and would give the same policy for ever
       first = now;
@@ -152,7 +160,7 @@ class Field {
       results_[i].settings = complete_word(entrants_[i].settings);
       results_[i].note = entrants_[i].note;
       // Making a learner finds out what the world cannot take.
-      const Result<TabularSetup> setup = resolve(entrants_[i].settings, *plan_.world);
+      const Result<LearnSetup> setup = resolve(entrants_[i].settings, *plan_.world);
       if (!setup) results_[i].refused = message(setup.error());
     }
   }

@@ -10,7 +10,9 @@ namespace quoll {
 struct Record {
   std::uint64_t step = 0;
   std::uint32_t lane = 0;  ///< index of the seed
-  std::string_view name;   ///< "episodic_return", "episodes"
+  /// "episodic_return", "episodes"; of learners that know no table also "processor_seconds" so far,
+  /// and what they measure, "td_loss", "q_values", as means since the last record.
+  std::string_view name;
   double value = 0.0;
 };
 

@@ -35,9 +35,9 @@ Result<Referee> Referee::make(const World& world, double discount, double share)
     const double value = referee.best_[s];
     const bool judged = !mdp.terminal(s) && std::isfinite(value);
     referee.least_.push_back(judged ? enough(value) : -HUGE_VAL);
-    referee.fewest_for_all_ += judged;
+    if (judged) referee.judged_.push_back(s);
   }
-  referee.best_start_ = referee.start_value(referee.best_);
+  referee.best_start_ = referee.start_sum([&](State s) { return referee.best_[s]; });
   referee.least_start_ = enough(referee.best_start_);
   const Result<std::uint64_t> fewest = referee.fewest_for_start();
   if (!fewest) return fewest.error();
@@ -58,7 +58,9 @@ Result<Referee> Referee::of_goal(const World& world, double discount, const Cert
   if (goal.everywhere) asked = reachable(mdp, from);
   for (State s = 0; s < mdp.states(); ++s) {
     const double least = solution->upper[s] - goal.gap * (goal.relative ? scale : 1.0);
-    referee.least_.push_back(asked[s] && !mdp.terminal(s) ? least : -HUGE_VAL);
+    const bool judged = asked[s] && !mdp.terminal(s) && least > -HUGE_VAL;
+    referee.least_.push_back(judged ? least : -HUGE_VAL);
+    if (judged) referee.judged_.push_back(s);
   }
   return referee;
 }
@@ -101,48 +103,123 @@ Result<std::uint64_t> Referee::fewest_for_start() const {
   return count;
 }
 
-double Referee::start_value(std::span<const double> values) const {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < mdp_->start().size(); ++i) {
-    const State s = mdp_->start()[i];
-    if (!mdp_->terminal(s)) sum += mdp_->start_probability(i) * values[s];
+// From V* the sweeps of a policy only fall, towards its value: one that is too low stays so
+// (Puterman 1994, theorem 6.2.2). The other way round, a sweep that lowers no value by more than d
+// leaves at most discount d / (1 - discount) for all that follow (proposition 6.6.1), whatever it
+// began from.
+Referee::Verdict Referee::by_sweeps(RaceMode mode, RefereeNotes& notes) const {
+  constexpr int sweeps = 100;
+  const PolicyPart& part = notes.part;
+  const std::span<const State> states = part.states();
+  const double rest = 1.0 - discount_;
+  const double least = rest > 0.0 ? std::min(0.0, mdp_->reward_bounds().first) / rest : 0.0;
+  std::vector<double>& value = notes.value;
+  value.resize(states.size() + 1);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    value[i] = part.actions()[i] == no_action ? least : best_[states[i]];
   }
-  return sum;
+  value.back() = 0.0;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    double spare = HUGE_VAL;
+    const double fell = part.sweep(discount_, value, [&](std::size_t i) {
+      if (mode == RaceMode::start) return true;
+      const double over = value[i] - least_[states[i]];
+      if (over < 0.0) notes.witness = states[i];
+      spare = std::min(spare, over);
+      return !(over < 0.0);
+    });
+    if (mode == RaceMode::start) {
+      spare = start_sum([&](State s) { return value[part.number(s)]; }) - least_start_;
+    }
+    if (spare < 0.0) return Verdict::bad;
+    if (fell == 0.0 && rest == 0.0) break;
+    // Sums are rounded: half of what is forgiven is kept for that.
+    if (rest < 1e-4) continue;
+    const double still = discount_ * fell / rest + slack_ / 2;
+    if (spare >= still) return Verdict::good;
+    if (fell < slack_ * rest / 16) break;  // too near to the limit for sweeps
+  }
+  return Verdict::open;
 }
 
-// From V* the sweeps of a policy only fall, towards its value: one that is too low stays so
-// (Puterman 1994, theorem 6.2.2).
-bool Referee::certainly_bad(std::span<const Action> policy, RaceMode mode) const {
-  constexpr int sweeps = 50;
-  const Mdp& mdp = *mdp_;
-  std::vector<double> value = best_;
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    for (State s = 0; s < mdp.states(); ++s) {
-      if (mdp.terminal(s) || policy[s] == no_action || !std::isfinite(value[s])) continue;
-      value[s] = std::min(value[s], q_star(mdp, value, mdp.choice_begin(s) + policy[s], discount_));
-      if (mode == RaceMode::all && value[s] < least_[s]) return true;
-    }
-    if (mode == RaceMode::start && start_value(value) < least_start_) return true;
+// By an evaluation of the part.
+bool Referee::by_value(RaceMode mode, RefereeNotes& notes) const {
+  const PolicyPart& part = notes.part;
+  const Result<Mdp> chain = part.model(*mdp_);
+  if (!chain) return false;
+  std::vector<Action> policy(chain->states(), 0);
+  for (std::size_t i = 0; i < part.states().size(); ++i) {
+    // Without discounting such a state may be worth anything.
+    if (discount_ == 1.0) policy[i] = part.actions()[i] == no_action ? no_action : 0;
   }
-  return false;
+  const Result<Evaluation> value = evaluate(*chain, policy, discount_, width_);
+  if (!value) return false;
+  if (mode == RaceMode::start) {
+    return start_sum([&](State s) { return value->lower[part.number(s)]; }) >= least_start_;
+  }
+  for (std::size_t i = 0; i < part.states().size(); ++i) {
+    if (value->lower[i] < least_[part.states()[i]]) {
+      notes.witness = part.states()[i];
+      return false;
+    }
+  }
+  return true;
+}
+
+bool Referee::judge(RaceMode mode, RefereeNotes& notes) const {
+  // Along the graph of a deterministic model an evaluation costs no more than a few sweeps.
+  const bool sweeps = !mdp_->deterministic() && (discount_ < 1.0 || notes.part.all_known());
+  const Verdict verdict = sweeps ? by_sweeps(mode, notes) : Verdict::open;
+  return verdict == Verdict::open ? by_value(mode, notes) : verdict == Verdict::good;
+}
+
+// A state that was too bad mostly still is, and a small part of the model shows it.
+bool Referee::bad_at_witness(const PolicyView& policy, RefereeNotes& notes) const {
+  if (!notes.witness) return false;
+  const State witness = *notes.witness;
+  if (policy(witness) == no_action) return true;
+  const std::uint64_t few = mdp_->states() / 8;
+  return notes.part.find(*mdp_, policy, {&witness, 1}, few) && !judge(RaceMode::all, notes);
+}
+
+// Whoever moves: it takes all states.
+bool Referee::good_game(const PolicyView& policy) const {
+  std::vector<Action> actions(mdp_->states(), no_action);
+  for (State s = 0; s < mdp_->states(); ++s) {
+    if (!mdp_->terminal(s)) actions[s] = policy(s);
+  }
+  const Result<Evaluation> value = evaluate(*mdp_, actions, discount_, width_);
+  return value && std::all_of(judged_.begin(), judged_.end(),
+                              [&](State s) { return value->lower[s] >= least_[s]; });
+}
+
+bool Referee::good(const PolicyView& policy, RaceMode mode, RefereeNotes& notes) const {
+  if (mode == RaceMode::all) {
+    if (!mdp_->alternating() && bad_at_witness(policy, notes)) return false;
+    const auto unknown = std::find_if(judged_.begin(), judged_.end(),
+                                      [&](State s) { return policy(s) == no_action; });
+    if (unknown != judged_.end()) {
+      notes.witness = *unknown;
+      return false;
+    }
+  }
+  if (mdp_->alternating()) return good_game(policy);
+  notes.part.find(*mdp_, policy, mode == RaceMode::all ? judged_ : mdp_->start());
+  const std::span<const Action> actions = notes.part.actions();
+  if (notes.mode == mode &&
+      std::equal(actions.begin(), actions.end(), notes.actions.begin(), notes.actions.end())) {
+    return notes.good;
+  }
+  notes.actions.assign(actions.begin(), actions.end());
+  notes.mode = mode;
+  notes.good = judge(mode, notes);
+  if (notes.good) notes.witness.reset();
+  return notes.good;
 }
 
 bool Referee::good(std::span<const Action> policy, RaceMode mode) const {
-  const Mdp& mdp = *mdp_;
-  if (mode == RaceMode::all) {
-    for (State s = 0; s < mdp.states(); ++s) {
-      if (policy[s] == no_action && least_[s] > -HUGE_VAL) return false;
-    }
-  }
-  // Along the graph of a deterministic model an evaluation costs no more than a sweep.
-  if (!mdp.deterministic() && !mdp.alternating() && certainly_bad(policy, mode)) return false;
-  const Result<Evaluation> value = evaluate(mdp, policy, discount_, width_);
-  if (!value) return false;
-  if (mode == RaceMode::start) return start_value(value->lower) >= least_start_;
-  for (State s = 0; s < mdp.states(); ++s) {
-    if (value->lower[s] < least_[s]) return false;
-  }
-  return true;
+  RefereeNotes notes;
+  return good([&](State s) { return policy[s]; }, mode, notes);
 }
 
 }  // namespace quoll

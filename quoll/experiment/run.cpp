@@ -12,6 +12,8 @@
 #include "quoll/base/parallel.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/experiment/referee.hpp"
+#include "quoll/learn/deep/distil.hpp"
+#include "quoll/learn/deep/learners.hpp"
 #include "quoll/model/digest.hpp"
 #include "quoll/model/graph.hpp"
 #include "quoll/solve/solver.hpp"
@@ -54,6 +56,17 @@ void count_optimal(const Mdp& mdp, const Solution& exact, const std::vector<Stat
   }
 }
 
+std::optional<double> mean_of_known(const std::vector<std::optional<double>>& values) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const std::optional<double>& value : values) {
+    sum += value.value_or(0.0);
+    count += value.has_value();
+  }
+  if (count == 0) return std::nullopt;
+  return sum / static_cast<double>(count);
+}
+
 std::uint64_t world_digest(const World& world) {
   return world.mdp ? digest(*world.mdp) : 0;
 }
@@ -68,6 +81,21 @@ std::uint64_t default_budget(const World& world) {
 }
 
 Result<Run> Run::start(RunSettings settings, WorldSource source, const World& world,
+                       std::vector<double> initial_rewards) {
+  if (settings.learn.method == quoll::distil.method) return find_offered(settings.learn).error();
+  return begin(std::move(settings), std::move(source), world, std::move(initial_rewards));
+}
+
+Result<Run> Run::distil(RunSettings settings, WorldSource source, const World& world,
+                        const Estimates& table, double share) {
+  settings.learn.method = quoll::distil.method;
+  Result<Run> run = begin(std::move(settings), std::move(source), world, {});
+  if (!run) return run;
+  for (Training& training : run->trainings_) teach(training.learner(), table, share);
+  return run;
+}
+
+Result<Run> Run::begin(RunSettings settings, WorldSource source, const World& world,
                        std::vector<double> initial_rewards) {
   Run run;
   run.settings_ = std::move(settings);
@@ -96,6 +124,7 @@ Result<Run> Run::start(RunSettings settings, WorldSource source, const World& wo
                  "the model of " + world.name + " is not known; certified:EPS goes by experience",
                  "certified:" + run.settings_.certified};
   }
+  if (const Result<void> fits = run.allows(run.settings_); !fits) return fits.error();
   for (std::uint64_t index = 0; index < run.settings_.seeds; ++index) {
     Result<Training> training =
         Training::make(run.settings_, index, *run.world_, run.initial_rewards_);
@@ -105,32 +134,63 @@ Result<Run> Run::start(RunSettings settings, WorldSource source, const World& wo
   return run;
 }
 
+Result<void> Run::allows(const RunSettings& limits) const {
+  if (!entry_->traits.approximates) return {};
+  const std::string& method = settings_.learn.method;
+  if (limits.until == "stable") {
+    return Error{"--until", 0, 0,
+                 "stable is for tables; " + method + " keeps none: return:R or a limit expected",
+                 ""};
+  }
+  if (!limits.certified.empty() && !limits.by_model) {
+    return Error{"--until", 0, 0,
+                 "certified:EPS from experience counts in tables; " + method +
+                     " keeps none: return:R or, where the model is known, certified:EPS,model "
+                     "expected",
+                 ""};
+  }
+  return {};
+}
+
 double Run::discount() const {
   return settings_.learn.discount > 0.0 ? settings_.learn.discount : world_->discount;
 }
 
-bool Run::advance(const RunSettings& limits_asked, double pause,
-                  const std::function<bool(const RunProgress&)>& keep_going, const Sink& sink) {
-  using Clock = std::chrono::steady_clock;
+// What was asked for; without any limit, what a method of this kind may take.
+Limits Run::limits_of(const RunSettings& asked) const {
   Limits limits;
-  limits.steps = limits_asked.steps;
-  limits.episodes = limits_asked.episodes;
-  if (!limits_asked.time.empty()) {
-    const Result<double> seconds = parse_duration(limits_asked.time, "--time");
+  limits.steps = asked.steps;
+  limits.episodes = asked.episodes;
+  if (!asked.time.empty()) {
+    const Result<double> seconds = parse_duration(asked.time, "--time");
     limits.seconds = seconds ? *seconds : 0.0;
   }
   const bool bounded = limits.steps > 0 || limits.episodes > 0 || limits.seconds > 0.0;
-  if (!bounded) limits.budget = default_budget(*world_);
+  limits.mean_return = asked.mean_return();
+  if (!bounded) {
+    if (!entry_->traits.approximates)
+      limits.budget = default_budget(*world_);
+    else
+      (limits.mean_return ? limits.budget : limits.steps) = default_steps;
+  }
   // Under noise a certificate takes far more steps than being right.
   if (!bounded && !settings_.certified.empty() && !world_->traits.deterministic) {
     limits.budget = std::max<std::uint64_t>(limits.budget, 1'000'000'000);
   }
   if (settings_.by_model && !settings_.certified.empty()) limits.referee = referee();
+  return limits;
+}
 
+bool Run::advance(const RunSettings& asked, double pause,
+                  const std::function<bool(const RunProgress&)>& keep_going, const Sink& sink) {
+  using Clock = std::chrono::steady_clock;
+  const Limits limits = limits_of(asked);
   const Clock::time_point begun = Clock::now();
   const auto since = [&] { return std::chrono::duration<double>(Clock::now() - begun).count(); };
   std::mutex mutex;
   std::vector<LearnProgress> where, before;
+  std::vector<std::optional<double>> returns(trainings_.size());
+  std::uint64_t finished = 0;
   for (const Training& training : trainings_) before.push_back(training.learner().progress());
   where = before;
   std::atomic<bool> stopped{false}, paused{false};
@@ -143,11 +203,12 @@ bool Run::advance(const RunSettings& limits_asked, double pause,
       progress.steps += one.steps;
       progress.episodes += one.episodes;
     }
+    progress.finished = finished;
     progress.seconds = since();
-    if (const auto& bins = trainings_[0].curve().bins();
-        training.index() == 0 && !bins.empty() && bins.back().episodes > 0) {
-      progress.mean_return = bins.back().mean();
+    if (const auto& bins = training.curve().bins(); !bins.empty() && bins.back().episodes > 0) {
+      returns[training.index()] = bins.back().mean();
     }
+    progress.mean_return = mean_of_known(returns);
     if (keep_going && !keep_going(progress)) stopped = true;
     // However short the pause, each call of advance() learns something.
     const bool moved = where[training.index()].steps > before[training.index()].steps;
@@ -160,6 +221,8 @@ bool Run::advance(const RunSettings& limits_asked, double pause,
   };
   parallel_for(trainings_.size(), settings_.threads, [&](std::size_t i) {
     trainings_[i].advance(limits, between, sink ? locked : Sink());
+    const std::lock_guard lock(mutex);
+    ++finished;
   });
   return !paused || std::none_of(trainings_.begin(), trainings_.end(), [](const Training& one) {
     return one.stop() == Stop::interrupted;
@@ -176,7 +239,7 @@ std::function<bool(const Learner&)> Run::referee() const {
 }
 
 std::vector<State> Run::starts() const {
-  const Result<TabularSetup> setup = resolve(settings_.learn, *world_);
+  const Result<LearnSetup> setup = resolve(settings_.learn, *world_);
   if (!setup) return {};
   return {setup->starts.states().begin(), setup->starts.states().end()};
 }
@@ -209,10 +272,17 @@ RunResult Run::result(bool solve_too) const {
     seed.seconds = training.seconds();
     seed.stop = training.stop();
     seed.impossible = progress.impossible;
+    seed.processor_seconds = training.processor_seconds();
+    seed.training_return = training.training_return();
+    seed.reached = training.reached();
+    std::unique_ptr<Policy> policy = training.learner().policy();
     seed.policy = greedy_policy(training.learner().estimates());
     if (training.certifier() != nullptr) {
       seed.certificate = training.certifier()->certificate();
-      if (seed.certificate->reached) seed.policy = seed.certificate->policy;
+      if (seed.certificate->reached) {
+        seed.policy = seed.certificate->policy;
+        policy = std::make_unique<TablePolicy>(seed.policy);
+      }
     }
     if (mdp && result.exact && entry_->sound) {
       seed.optimality = judge(*mdp, *result.exact, seed.policy, from, discount());
@@ -221,14 +291,16 @@ RunResult Run::result(bool solve_too) const {
     const std::uint64_t cut = world_->episode_steps > 0
                                   ? world_->episode_steps
                                   : std::max<std::uint64_t>(2000, world_->traits.states);
-    seed.played = play(*world_, TablePolicy(seed.policy), settings_.evaluation_episodes, seed.seed,
-                       discount(), cut);
+    seed.played = play(*world_, *policy, settings_.evaluation_episodes, seed.seed, discount(), cut);
   });
   for (const SeedResult& seed : result.seeds) {
     means.push_back(seed.played.mean);
     result.seconds += seed.seconds;
   }
   result.statistics = statistics(means);
+  if (const auto& mark = world_->traits.solved; mark && settings_.evaluation_episodes > 0) {
+    result.solved = std::count_if(means.begin(), means.end(), [&](double m) { return m >= *mark; });
+  }
   return result;
 }
 
@@ -290,7 +362,7 @@ Result<Run> Run::load(const std::string& path, bool watch, const World* offered)
   }
   const bool force = std::exchange(saved.settings_.force, true);  // checked when the run began
   saved.settings_.learn.until_stable = watch;
-  Result<Run> run = start(saved.settings_, saved.source_, *world, saved.initial_rewards_);
+  Result<Run> run = begin(saved.settings_, saved.source_, *world, saved.initial_rewards_);
   if (!run) return refuse(message(run.error()));
   run->settings_.force = force;
   for (Training& training : run->trainings_) archive("training", training);

@@ -28,7 +28,7 @@ struct RunProgress {
   std::uint64_t steps = 0, episodes = 0;
   std::uint64_t finished = 0;         ///< seeds that are done
   double seconds = 0.0;               ///< since this call began
-  std::optional<double> mean_return;  ///< of the episodes of the last closed bin, first seed
+  std::optional<double> mean_return;  ///< of the episodes of each seed's last closed bin
 };
 
 /// What one seed came to.
@@ -37,7 +37,10 @@ struct SeedResult {
   double seconds = 0.0;
   Stop stop = Stop::none;
   Impossible impossible;
-  std::vector<Action> policy;  ///< greedy among visited
+  std::vector<Action> policy;  ///< greedy among visited; empty where the learner has no table
+  double processor_seconds = 0.0;
+  std::optional<double> training_return;  ///< of the last 100 training episodes, if it is known
+  std::optional<ReturnReached> reached;   ///< of --until return
   /// Where an exact answer is known; never of a rule that exists to be studied.
   std::optional<Optimality> optimality;
   /// States whose chosen action is optimal, among the states the verdict is about.
@@ -52,8 +55,9 @@ struct RunResult {
   std::optional<Solution> exact;
   std::string no_exact;  ///< why there is no exact answer
   std::vector<SeedResult> seeds;
-  Statistics statistics;  ///< over the seeds' mean returns
-  double seconds = 0.0;   ///< learning, all seeds together
+  Statistics statistics;                ///< over the seeds' mean returns
+  std::optional<std::uint64_t> solved;  ///< seeds at or above the world's own mark, if it has one
+  double seconds = 0.0;                 ///< learning, all seeds together
 };
 
 class Run {
@@ -61,11 +65,17 @@ class Run {
   /// The method "auto" is settled here (learn/choice.hpp).
   static Result<Run> start(RunSettings settings, WorldSource source, const World& world,
                            std::vector<double> initial_rewards);
+  /// A run of the method "distil": each seed is taught the `share` of the states of `table`, whose
+  /// rows are those of the world (learn/deep/distil.hpp).
+  static Result<Run> distil(RunSettings settings, WorldSource source, const World& world,
+                            const Estimates& table, double share = 1.0);
   /// Reads a run file; finds its world again (beside the file if not where it was), and refuses a
   /// world that has changed since. `watch` = whether it goes on to watch for stability. `offered`
   /// is taken instead if it has the same model.
   static Result<Run> load(const std::string& path, bool watch = true,
                           const World* offered = nullptr);
+  /// Whether the goal of these limits can be reached by this run's method.
+  Result<void> allows(const RunSettings& limits) const;
   /// Writes the run atomically. Between calls of advance() only.
   Result<void> save(const std::string& path);
 
@@ -91,7 +101,10 @@ class Run {
   const std::vector<Training>& trainings() const { return trainings_; }
 
  private:
+  static Result<Run> begin(RunSettings settings, WorldSource source, const World& world,
+                           std::vector<double> initial_rewards);
   void persist(Archive& archive);
+  Limits limits_of(const RunSettings& asked) const;
   std::vector<State> starts() const;
   std::function<bool(const Learner&)> referee() const;
 
@@ -107,5 +120,8 @@ class Run {
 /// Steps after which a run without a limit gives up on being stable: max(10^6, 2000 x pairs); the
 /// pairs of a world without a model are its states x its largest number of actions.
 std::uint64_t default_budget(const World& world);
+
+/// Steps of a run without a limit whose method knows no table.
+inline constexpr std::uint64_t default_steps = 500'000;
 
 }  // namespace quoll

@@ -26,7 +26,7 @@ void RunSettings::describe_limits(Describer& d) {
   d("time", time, "stop after so much time, such as 10s, 2m or 500ms");
   d("until", until,
     "stop when a goal is reached: stable, certified:EPS or certified:EPS%, with ,model from the "
-    "model");
+    "model, or return:R, the mean of the last 100 training episodes");
 }
 
 void RunSettings::persist(Archive& archive) {
@@ -60,6 +60,30 @@ Result<void> take_certified(std::string_view until, RunSettings& settings) {
                "expected, not '" +
                    std::string(until) + "'",
                ""};
+}
+
+namespace {
+constexpr std::string_view return_word = "return:";
+}
+
+std::optional<double> RunSettings::mean_return() const {
+  if (!until.starts_with(return_word)) return std::nullopt;
+  return parse_number(std::string_view(until).substr(return_word.size()));
+}
+
+Result<void> check_until(std::string_view until) {
+  if (until.empty() || until == "stable") return {};
+  if (!until.starts_with(return_word)) {
+    return Error{"--until", 0, 0,
+                 "stable, return:R, certified:EPS or certified:EPS,model expected, not '" +
+                     std::string(until) + "'",
+                 nearest(std::string(until),
+                         std::vector<std::string>{"stable", "certified:0.01", "return:100"})};
+  }
+  const auto number = parse_number(until.substr(return_word.size()));
+  if (number && std::isfinite(*number)) return {};
+  return Error{"--until", 0, 0,
+               "a mean return such as return:475 expected, not '" + std::string(until) + "'", ""};
 }
 
 CertifyGoal certify_goal(const RunSettings& settings) {

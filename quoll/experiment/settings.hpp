@@ -2,6 +2,7 @@
 // A run as people ask for it: how to learn, how long, how often.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "quoll/learn/certifier.hpp"
@@ -27,10 +28,11 @@ struct RunSettings {
   std::uint64_t steps = 0;     ///< 0 = no limit
   std::uint64_t episodes = 0;  ///< 0 = no limit
   std::string time;            ///< "10s", "2m", "500ms"; empty = no limit
-  std::string until;           ///< "stable", "certified:EPS", "certified:EPS,model" or empty
-  std::uint64_t seeds = 1;     ///< seeds N .. N + seeds - 1
-  unsigned threads = 0;        ///< 0 = all processors
-  bool force = false;          ///< learn although undiscounted values are undefined
+  /// "stable", "certified:EPS", "certified:EPS,model", "return:R" or empty.
+  std::string until;
+  std::uint64_t seeds = 1;  ///< seeds N .. N + seeds - 1
+  unsigned threads = 0;     ///< 0 = all processors
+  bool force = false;       ///< learn although undiscounted values are undefined
   std::uint64_t evaluation_episodes = 100;
 
   /// How to learn and how often: what a resumed run takes from its file.
@@ -39,8 +41,14 @@ struct RunSettings {
   void describe_limits(Describer& d);
   void persist(Archive& archive);
 
+  /// R of "return:R".
+  std::optional<double> mean_return() const;
   bool has_limit() const { return steps > 0 || episodes > 0 || !time.empty() || !until.empty(); }
 };
+
+/// Whether the settings' goal is one: "stable", "return:R" or none ("certified:EPS" is taken apart
+/// by take_certified()).
+Result<void> check_until(std::string_view until);
 
 /// Takes "certified:EPS", "certified:EPS%" or either with ",model" apart into the settings. Error:
 /// something else, a gap that is not positive in a noisy world or negative.

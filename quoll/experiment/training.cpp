@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <chrono>
 
+#include "quoll/experiment/thread_seconds.hpp"
+
 namespace quoll {
 
 std::string_view stop_name(Stop stop) {
-  constexpr std::string_view names[] = {"none",      "steps",    "episodes", "time",       "stable",
-                                        "certified", "diverged", "budget",   "interrupted"};
+  constexpr std::string_view names[] = {"none",      "steps",  "episodes", "time",   "stable",
+                                        "certified", "return", "diverged", "budget", "interrupted"};
   return names[static_cast<std::size_t>(stop)];
 }
 
@@ -21,8 +23,9 @@ Result<Training> Training::make(const RunSettings& settings, std::uint64_t index
   training.seed_ = learn.seed;
   training.index_ = static_cast<std::uint32_t>(index);
   training.learner_ = std::move(*learner);
+  training.approximates_ = (*find_learner(learn))->traits.approximates;
   if (!settings.certified.empty() && !settings.by_model) {
-    const Result<TabularSetup> setup = resolve(learn, world, initial_rewards);
+    const Result<LearnSetup> setup = resolve(learn, world, initial_rewards);
     if (!setup) return setup.error();
     Result<Certifier> certifier = Certifier::make(*setup, certify_goal(settings));
     if (!certifier) return certifier.error();
@@ -34,12 +37,17 @@ Result<Training> Training::make(const RunSettings& settings, std::uint64_t index
 
 namespace {
 constexpr std::uint64_t largest_log = 4096;  // updates
-}
+// Learners that approximate may need a millisecond a step: progress, limits of time and the moment
+// of a return want short chunks.
+constexpr std::uint64_t largest_approximated = 1024;
+}  // namespace
 
 // An episode takes at least one step, so as many steps as episodes are left cannot overshoot.
 std::uint64_t Training::chunk(const Limits& limits, const LearnProgress& now) const {
   std::uint64_t steps = std::min<std::uint64_t>(curve_.boundary() - now.steps, 1 << 16);
+  if (approximates_) steps = std::min(steps, largest_approximated);
   if (certifier_) steps = std::min({steps, certifier_->due() - now.steps, largest_log});
+  if (limits.mean_return) steps = std::min(steps, largest_log);
   if (limits.referee) steps = std::min(steps, std::max(refereed_, now.steps + 1) - now.steps);
   if (limits.steps > 0) steps = std::min(steps, limits.steps - now.steps);
   if (limits.budget > 0) steps = std::min(steps, limits.budget - now.steps);
@@ -47,11 +55,18 @@ std::uint64_t Training::chunk(const Limits& limits, const LearnProgress& now) co
   return steps;
 }
 
-LearnProgress Training::advance_by(std::uint64_t steps) {
-  if (!certifier_) return learner_->advance(steps, {});
-  log_.resize(largest_log);
-  const LearnProgress now = learner_->advance(steps, std::span(log_).first(steps));
-  certifier_->observe(std::span(log_).first(now.logged));
+LearnProgress Training::advance_by(std::uint64_t steps, const Limits& limits) {
+  const bool logged = certifier_ || (limits.mean_return && !approximates_);
+  if (logged) log_.resize(largest_log);
+  const double before = thread_seconds();
+  const LearnProgress now = learner_->advance(steps, std::span(log_).first(logged ? steps : 0));
+  processor_seconds_ += thread_seconds() - before;
+  const std::span<const Update> updates = std::span(log_).first(now.logged);
+  if (certifier_) certifier_->observe(updates);
+  returns_.add(updates, processor_seconds_);
+  for (const FinishedEpisode& episode : learner_->finished()) {
+    returns_.add(episode, processor_seconds_);
+  }
   return now;
 }
 
@@ -61,6 +76,7 @@ Stop Training::advance(const Limits& limits, const Between& between, const Sink&
   const Clock::time_point begun = Clock::now();
   const double before = seconds_;
   bool certified = certifier_ && certifier_->certificate().reached;
+  if (limits.mean_return) returns_.look_for(*limits.mean_return, now.steps, processor_seconds_);
   for (;;) {
     seconds_ = before + std::chrono::duration<double>(Clock::now() - begun).count();
     using Halt = LearnProgress::Halt;
@@ -70,6 +86,7 @@ Stop Training::advance(const Limits& limits, const Between& between, const Sink&
       certified = limits.referee(*learner_);
     }
     stop_ = certified                                                ? Stop::certified
+            : limits.mean_return && returns_.reached()               ? Stop::reached
             : now.halt == Halt::stable                               ? Stop::stable
             : now.halt == Halt::diverged                             ? Stop::diverged
             : limits.steps > 0 && now.steps >= limits.steps          ? Stop::steps
@@ -79,19 +96,38 @@ Stop Training::advance(const Limits& limits, const Between& between, const Sink&
             : between && !between(*this)                             ? Stop::interrupted
                                                                      : Stop::none;
     if (stop_ != Stop::none) return stop_;
-    now = advance_by(chunk(limits, now));
-    if (curve_.advance(now.steps, now.episodes, now.return_sum) && sink) {
-      const LearningCurve::Bin& bin = curve_.bins().back();
-      if (bin.episodes > 0) sink({now.steps, index_, "episodic_return", bin.mean()});
-      sink({now.steps, index_, "episodes", static_cast<double>(now.episodes)});
-    }
+    now = advance_by(chunk(limits, now), limits);
+    if (curve_.advance(now.steps, now.episodes, now.return_sum)) record(now, sink);
+  }
+}
+
+// What was measured is counted with and without a sink: a run is the same either way.
+void Training::record(const LearnProgress& now, const Sink& sink) {
+  const auto say = [&](std::string_view name, double value) {
+    if (sink) sink({now.steps, index_, name, value});
+  };
+  const LearningCurve::Bin& bin = curve_.bins().back();
+  if (bin.episodes > 0) say("episodic_return", bin.mean());
+  say("episodes", static_cast<double>(now.episodes));
+  if (!approximates_) return;
+  say("processor_seconds", processor_seconds_);
+  const std::vector<Measure> measures = learner_->measures();
+  measured_.resize(measures.size());
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    const std::uint64_t count = measures[i].count - measured_[i].count;
+    const double sum = measures[i].sum - measured_[i].sum;
+    if (count > 0) say(measures[i].name, sum / static_cast<double>(count));
+    measured_[i] = {measures[i].sum, measures[i].count};
   }
 }
 
 void Training::persist(Archive& archive) {
   archive("seed", seed_);
   archive("seconds", seconds_);
+  archive("processor_seconds", processor_seconds_);
+  archive("returns", returns_);
   archive("curve", curve_);
+  archive("measured", measured_);
   archive("learner", *learner_);
   if (certifier_) archive("certifier", *certifier_);
 }

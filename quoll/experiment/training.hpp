@@ -11,6 +11,7 @@
 
 #include "quoll/experiment/learning_curve.hpp"
 #include "quoll/experiment/record.hpp"
+#include "quoll/experiment/return_watch.hpp"
 #include "quoll/experiment/settings.hpp"
 #include "quoll/learn/learner.hpp"
 
@@ -24,6 +25,7 @@ enum class Stop : std::uint8_t {
   time,         ///< the time asked for is over
   stable,       ///< nothing changes any more
   certified,    ///< the bounds are as close as was asked for
+  reached,      ///< the mean return of training episodes that was asked for
   diverged,     ///< a value that is no number, or beyond 1e30
   budget,       ///< not stable within the default budget: a goal was missed
   interrupted,  ///< somebody asked to stop
@@ -34,7 +36,8 @@ std::string_view stop_name(Stop stop);
 struct Limits {
   std::uint64_t steps = 0, episodes = 0;
   double seconds = 0.0;
-  std::uint64_t budget = 0;  ///< steps after which a goal counts as missed
+  std::uint64_t budget = 0;           ///< steps after which a goal counts as missed
+  std::optional<double> mean_return;  ///< of the last 100 training episodes: good enough
   /// Asked every so often whether the learner's policy is good enough; empty = never.
   std::function<bool(const Learner&)> referee;
 };
@@ -56,6 +59,14 @@ class Training {
   Learner& learner() { return *learner_; }
   const LearningCurve& curve() const { return curve_; }
   double seconds() const { return seconds_; }  ///< spent learning, resumed parts included
+  double processor_seconds() const { return processor_seconds_; }  ///< the same, of this thread
+  /// Mean return of the last 100 training episodes, where episodes are told of (of methods without
+  /// a table, and where a mean return was asked for); none = fewer have ended.
+  std::optional<double> training_return() const {
+    return returns_.full() ? std::optional(returns_.mean()) : std::nullopt;
+  }
+  /// When the mean return asked for was reached; none = not yet.
+  const std::optional<ReturnReached>& reached() const { return returns_.reached(); }
   Stop stop() const { return stop_; }
 
   /// What watches the experience, if a certificate is asked for.
@@ -64,17 +75,31 @@ class Training {
   void persist(Archive& archive);
 
  private:
-  LearnProgress advance_by(std::uint64_t steps);
+  // A Measure as it stood at the last record.
+  struct Measured {
+    double sum = 0.0;
+    std::uint64_t count = 0;
+    void persist(Archive& archive) {
+      archive("sum", sum);
+      archive("count", count);
+    }
+  };
+
+  LearnProgress advance_by(std::uint64_t steps, const Limits& limits);
   std::uint64_t chunk(const Limits& limits, const LearnProgress& now) const;
+  void record(const LearnProgress& now, const Sink& sink);
 
   std::uint64_t seed_ = 1;
   std::uint32_t index_ = 0;
   std::unique_ptr<Learner> learner_;
+  bool approximates_ = false;
   std::optional<Certifier> certifier_;
-  std::vector<Update> log_;     // for the certifier
+  std::vector<Update> log_;     // for the certifier, or the returns of a table's episodes
   std::uint64_t refereed_ = 0;  // step of the referee's next look
+  ReturnWatch returns_;
   LearningCurve curve_;
-  double seconds_ = 0.0;
+  std::vector<Measured> measured_;
+  double seconds_ = 0.0, processor_seconds_ = 0.0;
   Stop stop_ = Stop::none;
 };
 

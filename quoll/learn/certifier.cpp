@@ -29,7 +29,7 @@ ListedSuccessors listed_by(const Mdp& mdp) {
 
 }  // namespace
 
-Result<Certifier> Certifier::make(const TabularSetup& setup, const CertifyGoal& goal) {
+Result<Certifier> Certifier::make(const LearnSetup& setup, const CertifyGoal& goal) {
   const World& world = *setup.world;
   const Result<void> bounded = finite_value_range(world, setup.rewards, setup.discount,
                                                   "a certificate from experience", "--until");

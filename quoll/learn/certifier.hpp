@@ -52,7 +52,7 @@ class Certifier {
  public:
   Certifier() = default;
   /// Error: no declared rewards, or no bound on values.
-  static Result<Certifier> make(const TabularSetup& setup, const CertifyGoal& goal);
+  static Result<Certifier> make(const LearnSetup& setup, const CertifyGoal& goal);
 
   /// The step at which check() is due; a chunk should not run over it.
   std::uint64_t due() const { return due_; }

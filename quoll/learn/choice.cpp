@@ -24,7 +24,8 @@ bool values_bounded(const World& world, const LearnSettings& settings) {
 
 MethodChoice choose_method(const World& world, const LearnSettings& settings) {
   if (world.traits.states == 0) {
-    return {"q-learning", "world", "no table can learn what cannot be listed"};
+    return {"pqn", "world",
+            "no table can learn what cannot be listed; a network learns from what is observed"};
   }
   if (world.traits.players > 1) {
     return {"q-learning", "world", "two players learn from each other's moves"};

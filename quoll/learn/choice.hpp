@@ -16,7 +16,8 @@ struct MethodChoice {
 };
 
 /// In this order:
-///   states that cannot be listed      -> q-learning, and resolve() says why no table learns it
+///   states that cannot be listed      -> linear-q where ranges of the observed numbers are known,
+///                                        else q-learning, and resolve() says why it cannot
 ///   two players, or so few pairs that chance visits them all, or so many that a model is too large
 ///                                     -> q-learning, the lecture's own
 ///   can be put into any state         -> empirical-model, each pair in turn

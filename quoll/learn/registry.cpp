@@ -3,6 +3,8 @@
 #include <array>
 
 #include "quoll/base/text.hpp"
+#include "quoll/learn/deep/learners.hpp"
+#include "quoll/learn/greedy_rows.hpp"
 #include "quoll/learn/learner.hpp"
 #include "quoll/learn/tabular/rules.hpp"
 
@@ -27,11 +29,21 @@ std::span<const LearnerEntry> learners() {
       tree_backup,
       q_lambda,
       ucb_q,
+      linear_q,
+      nfq,
+      dqn,
+      pqn,
+      stream_q,
   };
   return entries;
 }
 
 Result<const LearnerEntry*> find_learner(const LearnSettings& settings) {
+  if (settings.method == distil.method) return &distil;
+  return find_offered(settings);
+}
+
+Result<const LearnerEntry*> find_offered(const LearnSettings& settings) {
   Nearest method(settings.method), rule(settings.rule);
   bool method_known = false;
   for (const LearnerEntry& entry : learners()) {
@@ -60,25 +72,27 @@ Result<std::unique_ptr<Learner>> make_learner(const LearnSettings& settings, con
                                               const std::vector<double>& initial_rewards) {
   const Result<const LearnerEntry*> entry = find_learner(settings);
   if (!entry) return entry.error();
-  const Result<TabularSetup> setup = resolve(settings, world, initial_rewards);
+  const Result<LearnSetup> setup = resolve(settings, world, initial_rewards);
   if (!setup) return setup.error();
   return (*entry)->make(*setup);
 }
 
 std::vector<Action> greedy_policy(const Estimates& estimates) {
   const std::vector<std::uint64_t>& begin = estimates.row_begin;
+  if (begin.empty()) return {};
   std::vector<Action> policy(begin.size() - 1, no_action);
   for (std::size_t s = 0; s < policy.size(); ++s) {
-    for (std::uint64_t c = begin[s]; c < begin[s + 1]; ++c) {
-      // Nobody acts in an end, so its pairs are never visited.
-      if (estimates.visits[c] == 0) continue;
-      const Action best = policy[s];
-      if (best == no_action || estimates.q[c] > estimates.q[begin[s] + best]) {
-        policy[s] = static_cast<Action>(c - begin[s]);
-      }
-    }
+    // Nobody acts in an end, so its pairs are never visited.
+    policy[s] = best_visited(
+        static_cast<Action>(begin[s + 1] - begin[s]),
+        [&](Action a) { return estimates.q[begin[s] + a]; },
+        [&](Action a) { return estimates.visits[begin[s] + a]; });
   }
   return policy;
+}
+
+std::unique_ptr<Policy> Learner::policy() const {
+  return std::make_unique<TablePolicy>(greedy_policy(estimates()));
 }
 
 }  // namespace quoll

@@ -11,7 +11,7 @@
 namespace quoll {
 
 void MethodSettings::describe(Describer& d) {
-  d("trace_decay", trace_decay, 0, 1, "q-lambda: lambda, how far an error travels back");
+  d("trace_decay", trace_decay, 0, 1, "q-lambda, linear-q: lambda, how far an error travels back");
   d("return_steps", return_steps, "n-step, tree-backup: rewards in a return before the table");
   d("planning_backups", planning_backups,
     "dyna-q, dyna-q-plus, prioritised-sweeping: backups of the model per step");
@@ -27,14 +27,28 @@ void MethodSettings::describe(Describer& d) {
   d("bonus_range", bonus_range, 0, 1e300, "optimistic-model: C of that bonus");
 }
 
+void LinearSettings::describe(Describer& d) {
+  d("tilings", tilings, 1, 1024,
+    "linear-q: grids over the observed numbers, each shifted a little");
+  d("tiles", tiles,
+    "linear-q: tiles of a grid in the range of each observed number, such as 8, or 8,8,4,4");
+  d("tile_step_size", tile_step_size, 0, 2, "linear-q: step size, of all tilings together");
+  d("keep_traces", keep_traces,
+    "linear-q: keep traces where an action was not greedy, unlike Watkins");
+}
+
 void LearnSettings::describe(Describer& d) {
   d("method", method,
     "how to learn; see 'quoll list methods'; auto, or no setting of learning at all: by the world");
   d("rule", rule, "update rule: standard, as-printed (the lecture's text) or reward-estimate");
   d("discount", discount, 0, 1, "discount factor of the future; 0 = the world's own");
   d("seed", seed, "which random numbers; the same seed gives the same bits");
-  d("explore", explore, "how actions are chosen; see 'quoll list explorations'");
-  d("epsilon", epsilon, "epsilon-greedy: share of random actions, or FROM:TO:STEPS");
+  d("explore", explore,
+    "how actions are chosen; see 'quoll list explorations'; auto = uniform for tables, "
+    "epsilon-greedy for methods that know no table, greedy with --noisy");
+  d("epsilon", epsilon,
+    "epsilon-greedy: share of random actions, or FROM:TO:STEPS; auto = 0.1, or as the method's "
+    "networks need");
   d("temperature", temperature,
     "softmax: in units of value, in % of the span of rewards, or FROM:TO:STEPS of either");
   d("ucb_constant", ucb_constant, 0, 1e6, "ucb: weight of the bonus, times the span of rewards");
@@ -55,6 +69,8 @@ void LearnSettings::describe(Describer& d) {
   d("reward_range", reward_range,
     "smallest and largest reward of a step, LOW,HIGH; empty = as the world declares");
   of_method.describe(d);
+  linear.describe(d);
+  deep.describe(d);
 }
 
 void LearnSettings::persist(Archive& archive) {
@@ -80,9 +96,15 @@ void LearnSettings::persist(Archive& archive) {
 
 namespace {
 
-Result<Exploration> exploration(const LearnSettings& settings, const World& world) {
-  const auto* const found = std::find(std::begin(exploration_names), std::end(exploration_names),
-                                      std::string_view(settings.explore));
+Result<Exploration> exploration(const LearnSettings& settings, const World& world,
+                                const LearnerTraits& traits) {
+  std::string_view kind = settings.explore;
+  if (kind == "auto") {
+    const bool noisy = settings.deep.noisy && traits.networks;
+    kind = noisy ? "greedy" : traits.approximates ? "epsilon-greedy" : "uniform";
+  }
+  const auto* const found =
+      std::find(std::begin(exploration_names), std::end(exploration_names), kind);
   if (found == std::end(exploration_names)) {
     return Error{"--explore", 0, 0,
                  "no exploration '" + settings.explore + "'; see 'quoll list explorations'",
@@ -91,7 +113,8 @@ Result<Exploration> exploration(const LearnSettings& settings, const World& worl
   Exploration chosen;
   chosen.kind = static_cast<Exploration::Kind>(found - std::begin(exploration_names));
   chosen.first_tie = settings.ties == Ties::first;
-  const auto epsilon = parse_schedule(settings.epsilon, 0.0, 1.0, "--epsilon");
+  const auto epsilon = parse_schedule(
+      settings.epsilon == "auto" ? traits.epsilon : settings.epsilon, 0.0, 1.0, "--epsilon");
   if (!epsilon) return epsilon.error();
   chosen.epsilon = *epsilon;
   // The span of rewards, 0 (doing nothing) included: the scale on which UCB1 assumes [0, 1].
@@ -169,7 +192,7 @@ Result<StartStates> starts(const LearnSettings& settings, const World& world) {
 }
 
 // "optimistic": the most any policy can earn.
-Result<double> initial_value(const LearnSettings& settings, const TabularSetup& setup,
+Result<double> initial_value(const LearnSettings& settings, const LearnSetup& setup,
                              bool optimistic) {
   if (settings.initial_value != "optimistic" && !(optimistic && settings.initial_value == "0")) {
     const auto number = parse_number(settings.initial_value);
@@ -201,7 +224,7 @@ std::uint64_t episode_limit(const LearnSettings& settings, const World& world, d
   return static_cast<std::uint64_t>(std::min(horizon, 32.0));
 }
 
-StableSetup stable(const LearnSettings& settings, const TabularSetup& setup,
+StableSetup stable(const LearnSettings& settings, const LearnSetup& setup,
                    const LearnerEntry& entry) {
   const World& world = *setup.world;
   StableSetup stable;
@@ -233,7 +256,7 @@ Result<StepSize> step_size(const LearnSettings& settings, const World& world, do
 }
 
 // What a table of this precision begins with; "all QE = 0" is part of the printed rule.
-Result<double> first_value(const LearnSettings& settings, const TabularSetup& setup,
+Result<double> first_value(const LearnSettings& settings, const LearnSetup& setup,
                            bool optimistic) {
   const auto initial = initial_value(settings, setup, optimistic);
   if (!initial) return initial;
@@ -249,7 +272,7 @@ Result<double> first_value(const LearnSettings& settings, const TabularSetup& se
 }
 
 // The bound B of the divergence guard, or 0 where none is known.
-double value_bound(const TabularSetup& setup, const World& world) {
+double value_bound(const LearnSetup& setup, const World& world) {
   if (!world.traits.reward_bounds || setup.discount >= 1.0) return 0.0;
   double largest = std::max(std::fabs(world.traits.reward_bounds->first),
                             std::fabs(world.traits.reward_bounds->second));
@@ -261,14 +284,42 @@ double value_bound(const TabularSetup& setup, const World& world) {
   return std::max(std::fabs(setup.initial_value), largest / (1.0 - setup.discount));
 }
 
+// A setting of tables that was given to a method that knows none.
+Result<void> no_setting_of_tables(const LearnSettings& settings) {
+  LearnSettings given = settings, usual;
+  Describer list, usual_list;
+  given.describe(list);
+  usual.describe(usual_list);
+  constexpr std::string_view of_tables[] = {"step_size", "initial_value", "initial_rewards",
+                                            "tolerance", "precision"};
+  for (std::size_t i = 0; i < list.settings().size(); ++i) {
+    const Setting& setting = list.settings()[i];
+    const auto* const found =
+        std::find(std::begin(of_tables), std::end(of_tables), std::string_view(setting.name));
+    if (found == std::end(of_tables)) continue;
+    if (text_of(setting) == text_of(usual_list.settings()[i])) continue;
+    std::string flag = "--" + std::string(setting.name);
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    return Error{flag, 0, 0, "is for tables; " + settings.method + " keeps none", ""};
+  }
+  if (settings.start == "world") return {};
+  return Error{"--start", 0, 0,
+               settings.method + " begins its episodes where the world does; only --start world",
+               ""};
+}
+
 // What the method and the words ask of each other.
 Result<void> check(const LearnSettings& settings, const LearnerEntry& entry,
-                   const TabularSetup& setup) {
+                   const LearnSetup& setup) {
   if (setup.starts.kind() == StartStates::Kind::widest_gap && !entry.traits.has_bounds) {
     return Error{"--start", 0, 0,
                  "widest-gap needs a method with an upper and a lower value of each state; " +
                      settings.method + " has none",
                  "optimistic-model"};
+  }
+  if (entry.traits.approximates) {
+    const Result<void> none = no_setting_of_tables(settings);
+    if (!none) return none;
   }
   if (settings.tolerance < 0.0 && settings.tolerance != -1.0) {
     return Error{
@@ -280,39 +331,47 @@ Result<void> check(const LearnSettings& settings, const LearnerEntry& entry,
 
 }  // namespace
 
-Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
-                             const std::vector<double>& initial_rewards) {
+Result<LearnSetup> resolve(const LearnSettings& settings, const World& world,
+                           const std::vector<double>& initial_rewards) {
   const Result<const LearnerEntry*> entry = find_learner(settings);
   if (!entry) return entry.error();
-  TabularSetup setup;
+  LearnSetup setup;
   setup.world = &world;
   setup.method = settings.method;
   setup.rule = settings.rule;
   setup.seed = settings.seed;
   setup.precision = settings.precision;
   setup.discount = settings.discount > 0.0 ? settings.discount : world.discount;
-  if (world.traits.states == 0) {
+  const bool approximates = (*entry)->traits.approximates;
+  if (world.traits.states == 0 && !approximates) {
     return Error{"", 0, 0,
                  "the states of " + world.name +
                      " cannot be listed: a table cannot learn it (worlds of observed numbers take "
                      "--with bins=...)",
                  ""};
   }
-  const auto exploring = exploration(settings, world);
+  const auto exploring = exploration(settings, world, (*entry)->traits);
   if (!exploring) return exploring.error();
   setup.exploration = *exploring;
   const auto starting = starts(settings, world);
   if (!starting) return starting.error();
   setup.starts = *starting;
-  const auto step = step_size(settings, world, setup.discount);
-  if (!step) return step.error();
-  setup.step_size = *step;
+  setup.episode_steps = episode_limit(settings, world, setup.discount);
+  if (!approximates) {
+    const auto step = step_size(settings, world, setup.discount);
+    if (!step) return step.error();
+    setup.step_size = *step;
+  }
   const auto rewards = reward_range(world, settings.reward_range);
   if (!rewards) return rewards.error();
   setup.rewards = *rewards;
   setup.of_method = settings.of_method;
+  setup.linear = settings.linear;
+  setup.deep = settings.deep;
   const Result<void> fits = check(settings, **entry, setup);
   if (!fits) return fits.error();
+  setup.stable.watch = settings.until_stable && (*entry)->traits.taught;
+  if (approximates) return setup;
   const auto initial = first_value(settings, setup, (*entry)->traits.optimistic);
   if (!initial) return initial.error();
   setup.initial_value = *initial;
@@ -327,7 +386,6 @@ Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
   if (initial_rewards.empty() && settings.initial_rewards == "world" && world.mdp) {
     setup.initial_rewards = world.mdp->arrays().reward;
   }
-  setup.episode_steps = episode_limit(settings, world, setup.discount);
   setup.stable = stable(settings, setup, **entry);
   setup.value_bound = value_bound(setup, world);
   return setup;

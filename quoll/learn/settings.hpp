@@ -1,6 +1,6 @@
 #pragma once
 // How to learn, as people say it (LearnSettings: words and numbers, one list for command line, TOML
-// and checkpoint), and as the loop needs it (TabularSetup: resolved against a world).
+// and checkpoint), and as a learner needs it (LearnSetup: resolved against a world).
 
 #include <cstdint>
 #include <memory>
@@ -13,6 +13,7 @@
 #include "quoll/act/start.hpp"
 #include "quoll/base/settings.hpp"
 #include "quoll/env/world.hpp"
+#include "quoll/learn/deep/deep_settings.hpp"
 #include "quoll/learn/step_size.hpp"
 #include "quoll/learn/value_range.hpp"
 
@@ -42,13 +43,23 @@ struct MethodSettings {
   void describe(Describer& d);
 };
 
+/// The numbers of linear-q.
+struct LinearSettings {
+  std::uint64_t tilings = 8;
+  std::string tiles = "8";      ///< in each number's range: one count, or one for each number
+  double tile_step_size = 0.2;  ///< of all tilings together
+  bool keep_traces = false;     ///< Watkins ends them where an action was not greedy
+
+  void describe(Describer& d);
+};
+
 struct LearnSettings {
   std::string method = "q-learning";
   std::string rule = "standard";
   double discount = 0.0;  ///< 0 = the world's own
   std::uint64_t seed = 1;
-  std::string explore = "uniform";
-  std::string epsilon = "0.1";
+  std::string explore = "auto";
+  std::string epsilon = "auto";
   std::string temperature = "1";
   double ucb_constant = 1.4;
   double count_bonus = 0.3;
@@ -63,6 +74,8 @@ struct LearnSettings {
   Precision precision = Precision::single;
   std::string reward_range;  ///< "a,b"; empty = as the world declares
   MethodSettings of_method;
+  LinearSettings linear;
+  DeepSettings deep;
   bool until_stable = true;  ///< set by the run: watch for stability
 
   void describe(Describer& d);
@@ -71,14 +84,15 @@ struct LearnSettings {
 
 /// Watching for the point from which nothing changes any more (docs/design.md, section 6).
 struct StableSetup {
-  bool watch = false;
+  bool watch = false;        ///< taught learners: whether to stop when all greedy actions are right
   std::uint32_t visits = 1;  ///< K: visits of every pair since the last movement
   double tolerance = 0.0;    ///< relative to max(1, |Q|)
   std::uint64_t pairs = 0;   ///< pairs reachable from the start; 0 = not known, those met so far
 };
 
-/// Everything the tabular loop needs, resolved and checked.
-struct TabularSetup {
+/// Everything a learner needs, resolved and checked. What is only for tables (step size, initial
+/// values, stability, the guard) stays as it is here for learners that approximate.
+struct LearnSetup {
   const World* world = nullptr;
   std::string method, rule;
   double discount = 1.0;
@@ -94,10 +108,12 @@ struct TabularSetup {
   double value_bound = 0.0;            ///< B of the divergence guard; 0 = none known
   std::optional<RewardRange> rewards;  ///< as declared or given
   MethodSettings of_method;
+  LinearSettings linear;
+  DeepSettings deep;
 };
 
 /// Resolves the settings against the world. Errors name the flag, the range and the nearest word.
-Result<TabularSetup> resolve(const LearnSettings& settings, const World& world,
-                             const std::vector<double>& initial_rewards = {});
+Result<LearnSetup> resolve(const LearnSettings& settings, const World& world,
+                           const std::vector<double>& initial_rewards = {});
 
 }  // namespace quoll

@@ -35,6 +35,7 @@ std::string blocking_text(const BoundsReport& report) {
 }
 
 std::string assumed_text(const BoundsReport& report) {
+  if (report.assumptions.empty()) return "";
   std::string text;
   for (const std::string& one : report.assumptions) {
     text += (text.empty() ? "Assumed: " : "; ") + one;

@@ -37,7 +37,7 @@ std::string certainty_text(const BoundsReport& report);
 /// The line "Blocked by ..", with at most five pairs; empty where nothing blocks.
 std::string blocking_text(const BoundsReport& report);
 
-/// The line "Assumed: ..".
+/// The line "Assumed: .."; empty where nothing is assumed.
 std::string assumed_text(const BoundsReport& report);
 
 /// The member "certificate" (docs/json.md); null without a report.

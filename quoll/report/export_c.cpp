@@ -1,56 +1,18 @@
-// The policy as a C header. Strings are escaped to plain ASCII, so that no compiler's idea of
-// encodings, trigraphs or comments can change them.
+// The policy as a C header.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "quoll/base/text.hpp"
+#include "quoll/report/c_text.hpp"
 #include "quoll/report/export_policy.hpp"
 
 namespace quoll {
 
-std::string c_identifier(std::string_view name) {
-  std::string out;
-  for (const char c : name) {
-    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    out += letter ? c : '_';
-  }
-  const bool first = !out.empty() && out[0] != '_' && !(out[0] >= '0' && out[0] <= '9');
-  return first ? out : "world_" + out;
-}
-
-std::string c_string(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\' || c == '?') {  // ?? begins a trigraph
-      out += '\\';
-      out += c;
-    } else if (byte < 0x20 || byte >= 0x7F) {
-      out += fmt::format("\\{:03o}", byte);
-    } else {
-      out += c;
-    }
-  }
-  return out + "\"";
-}
-
 namespace {
 
 constexpr std::uint64_t self_test_states = 64;
-
-/// Text that may stand in a comment.
-std::string in_comment(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const bool mark =
-        !out.empty() && ((out.back() == '*' && c == '/') || (out.back() == '/' && c == '*'));
-    if (mark) out += ' ';
-    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out;
-}
 
 class CHeader {
  public:
@@ -71,14 +33,6 @@ class CHeader {
   }
 
  private:
-  std::string upper() const {
-    std::string upper = name_;
-    std::transform(upper.begin(), upper.end(), upper.begin(), [](char c) {
-      return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    });
-    return upper;
-  }
-
   std::uint64_t action_count() const { return mdp_.arrays().action_names.size(); }
 
   /// The number of the chosen action among all action names; -1 = none.
@@ -96,8 +50,8 @@ class CHeader {
 
   void head() {
     out_ += fmt::format("/* A policy for the world {}, for C99 and C++; needs nothing.\n",
-                        in_comment(policy_.name));
-    for (const std::string& line : policy_.origin) out_ += " * " + in_comment(line) + "\n";
+                        c_comment(policy_.name));
+    for (const std::string& line : policy_.origin) out_ += " * " + c_comment(line) + "\n";
     out_ += fmt::format(
         " *   int a = {0}_action(state);   number of an action, -1 = none: an end, or never seen\n"
         " * Self-test: cc -DQUOLL_SELF_TEST -x c THIS_FILE && ./a.out\n",
@@ -108,7 +62,8 @@ class CHeader {
           " * the order of the world.\n",
           grouped(c_names_limit));
     }
-    out_ += fmt::format(" */\n#ifndef QUOLL_{0}_POLICY_H\n#define QUOLL_{0}_POLICY_H\n\n", upper());
+    out_ += fmt::format(" */\n#ifndef QUOLL_{0}_POLICY_H\n#define QUOLL_{0}_POLICY_H\n\n",
+                        c_upper(name_));
     out_ += "#include <stdint.h>\n";
     if (named_) out_ += "#include <string.h>\n";
     out_ += "\n";

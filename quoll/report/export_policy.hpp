@@ -31,11 +31,4 @@ inline constexpr std::uint64_t c_names_limit = 100'000;
 /// states and returns 0. One byte per state up to 254 action names.
 std::string policy_c(const PolicyExport& policy);
 
-/// A C identifier made from a name: other letters than A-Z a-z 0-9 become '_'; "world_" in front
-/// of what cannot stand first.
-std::string c_identifier(std::string_view name);
-
-/// The text as a C string literal, everything but plain ASCII as octal escapes.
-std::string c_string(std::string_view text);
-
 }  // namespace quoll

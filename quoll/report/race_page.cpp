@@ -183,9 +183,11 @@ std::string race_page(const RacePage& page) {
       "good after {} steps",
       one.seeds, one.first_seed, grouped(one.cap_steps));
   if (one.cap_seconds > 0.0) text += fmt::format(" or {}", seconds_text(one.cap_seconds));
-  text +=
+  text += fmt::format(
       " has failed; it counts as that many steps, and as the time these take at its own speed. Who "
-      "fails with each of the first 5 seeds runs no others. "
+      "fails with each of the first {} seeds runs no others. ",
+      trial_seeds);
+  text +=
       "Where the lecture's median failed, factors are lower bounds (`>`); where the entrant's did, "
       "upper bounds (`<`); where both did, there is none (`-`). Geometric means take bounds as "
       "they "

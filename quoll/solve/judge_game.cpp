@@ -131,9 +131,11 @@ Optimality judge_game(const Mdp& mdp, const Solution& exact, std::span<const Act
                                                : Result<Bounds>(order.error());
   if (!sure) {
     out.proof = message(sure.error());
-    out.regret = infinity;
+    out.regret = out.start_regret = infinity;
     return out;
   }
+  std::vector<bool> begins(mdp.states(), false);
+  for (const State s : from) begins[s] = true;
   std::vector<Compared> compared;
   for (const State s : asked) {
     const Compared one{exact.lower[s], exact.upper[s], sure->lower[s], sure->upper[s]};
@@ -143,6 +145,7 @@ Optimality judge_game(const Mdp& mdp, const Solution& exact, std::span<const Act
       out.regret = loss;
       out.worst = s;
     }
+    if (begins[s]) out.start_regret = std::max(out.start_regret, loss);
     const double estimate = middle(one.lower, one.upper) - middle(one.sure_lower, one.sure_upper);
     out.regret_estimate = std::max(out.regret_estimate, std::min(estimate, loss));
   }

@@ -66,7 +66,7 @@ class Judge {
       solve_along_graph();
       decide();
     }
-    measure_regret();
+    measure_regret(from);
     return out_;
   }
 
@@ -258,13 +258,16 @@ class Judge {
     return certify_total(mdp_, ending.live, policy, value).upper;
   }
 
-  void measure_regret() {
+  void measure_regret(std::span<const State> from) {
+    std::vector<bool> begins(mdp_.states(), false);
+    for (const State s : from) begins[s] = true;
     for (const State s : asked_) {
       const double loss = std::max(0.0, difference_up(upper_[s], value_.lower[s]));
       if (loss > out_.regret || s == asked_.front()) {
         out_.regret = loss;
         out_.worst = s;
       }
+      if (begins[s]) out_.start_regret = std::max(out_.start_regret, loss);
       const double best = middle(exact_lower_[s], std::max(exact_lower_[s], upper_[s]));
       const double own = middle(value_.lower[s], value_.upper[s]);
       if (best == own || !(best > own)) continue;

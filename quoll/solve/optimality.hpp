@@ -19,6 +19,7 @@ struct Optimality {
   std::string proof;              ///< one sentence: why, or what is missing
   double regret = 0.0;            ///< certified: no state asked about loses more than this
   double regret_estimate = 0.0;   ///< the same between the middles of the intervals
+  double start_regret = 0.0;      ///< certified: no state of `from` loses more than this
   std::uint64_t unreachable = 0;  ///< non-terminal states that cannot follow from `from`
   State worst = 0;                ///< where regret is largest
 };

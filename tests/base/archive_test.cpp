@@ -15,6 +15,13 @@ namespace {
 thread_local std::size_t largest_request = 0;
 }  // namespace
 
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define QUOLL_NEW_IS_TAKEN  // by clang's runtime, which brings its own
+#endif
+#endif
+
+#if !defined(QUOLL_NEW_IS_TAKEN)
 // Replaced to see that a damaged length never reaches the allocator. Not inlined, since the
 // compiler would warn of free() for what came from new.
 [[gnu::noinline]] void* operator new(std::size_t size) {
@@ -28,6 +35,7 @@ thread_local std::size_t largest_request = 0;
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
   std::free(memory);
 }
+#endif
 
 namespace quoll {
 namespace {

@@ -74,7 +74,7 @@ TEST(Parallel, CallsFromManyThreadsAllEnd) {
 
 // A running sum of both halves, which is wrong as soon as one is a step ahead.
 TEST(Team, GoesStepByStep) {
-  for (const unsigned threads : {0u, 1u, 2u, 5u}) {
+  for (const unsigned threads : {0u, 1u, 2u, 5u, 1000u}) {
     std::vector<int> steps;
     unsigned most = 0;
     Team::gather(threads, [&](Team& team, unsigned member) {
@@ -88,6 +88,7 @@ TEST(Team, GoesStepByStep) {
     });
     EXPECT_EQ(steps, std::vector<int>(most, 2000));
     if (threads > 0) EXPECT_LE(most, threads);
+    EXPECT_LE(most, processors());
   }
 }
 

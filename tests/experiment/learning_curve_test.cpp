@@ -32,6 +32,20 @@ TEST(LearningCurve, ABinHoldsTheEpisodesThatEndedInIt) {
   EXPECT_EQ(curve.bins()[1].episodes, 0u);
 }
 
+// 100 lanes walk 100 steps a round: the end of a bin is met a little later, and of bins that a
+// round jumps over the last has its episodes.
+TEST(LearningCurve, RoundsOfLanesMayRunOverAnEnd) {
+  LearningCurve curve;
+  EXPECT_TRUE(curve.advance(100, 3, 6.0));
+  EXPECT_EQ(curve.boundary(), 128u);
+  EXPECT_TRUE(curve.advance(200, 5, 10.0));
+  ASSERT_EQ(curve.bins().size(), 3u);
+  EXPECT_EQ(curve.bins()[0].episodes, 3u);
+  EXPECT_EQ(curve.bins()[1].episodes, 0u);
+  EXPECT_EQ(curve.bins()[2].episodes, 2u);
+  EXPECT_EQ(curve.boundary(), 256u);
+}
+
 // 512 bins of 64 steps are full at 32,768 steps: 256 of 128 remain; they are full at 65,536.
 TEST(LearningCurve, NeighboursAreJoinedWhenAllBinsAreFull) {
   const LearningCurve before = told(32'767, 1000);

@@ -250,8 +250,8 @@ TEST(Race, WhoFailsWithEachOfTheFirstSeedsRunsNoOthers) {
   const World world = corridor(8);
   const Referee referee = referee_of(world);
   for (const unsigned threads : {1u, 2u}) {
-    RacePlan plan{&world, &referee, RaceMode::start, 9, 1, {20, 0.0}, threads};
-    plan.caps.steps = 6;  // fewer than the way is long
+    // 6 steps are fewer than the way is long.
+    RacePlan plan{&world, &referee, RaceMode::start, 9, 1, {6, 0.0}, threads};
     RaceResult race = run_race(plan, *parse_entrants("q-learning", RaceMode::start));
     EXPECT_FALSE(race.interrupted);
     for (const EntrantResult& entrant : race.entrants) {

@@ -16,7 +16,7 @@ fail() {
   exit 1
 }
 # The result without the times it took.
-result() { sed -E 's/"(seconds|steps_per_second|seconds_load)": ?[-0-9.e+]+,?//g' "$1"; }
+result() { sed -E 's/"(seconds|processor_seconds|steps_per_second|seconds_load)": ?[-0-9.e+]+,?//g' "$1"; }
 same() {
   result "$1" >left
   result "$2" >right

@@ -15,7 +15,7 @@ namespace {
 
 struct Lesson {
   World world;
-  TabularSetup setup;
+  LearnSetup setup;
   const LearnerEntry* entry = nullptr;
 };
 

@@ -21,7 +21,7 @@ command -v node >/dev/null || skip "no node (package nodejs)"
 
 # The header-only libraries of the host, without the host's own libc beside them.
 mkdir -p "$out/include"
-for library in fmt toml++ xxhash.h xxh3.h; do
+for library in fmt hwy toml++ xxhash.h xxh3.h; do
   ln -sfn "/usr/include/$library" "$out/include/$library"
 done
 
@@ -42,7 +42,7 @@ cd "$root"
   echo "  command = $clang --target=wasm32-wasi \$in -o \$out"
   echo "build $out/precompiled.pch: precompile $root/cmake/precompiled.hpp"
   objects=''
-  for source in $(find quoll/base quoll/model quoll/env quoll/act quoll/solve quoll/verify \
+  for source in $(find quoll/base quoll/model quoll/nn quoll/env quoll/act quoll/solve quoll/verify \
     quoll/learn tests/wasi -name '*.cpp' | sort); do
     object=$out/objects/$(printf %s "$source" | tr / _).o
     echo "build $object: compile $root/$source | $out/precompiled.pch"

@@ -179,7 +179,8 @@ struct Acrobot {
 Result<World> make(const Parameters& parameters) {
   const Result<Settings> settings = read_parameters<Settings>("acrobot", parameters);
   if (!settings) return settings.error();
-  const WorldFacts facts = control_facts(settings->limit, settings->seeding, {-1.0, 0.0});
+  WorldFacts facts = control_facts(settings->limit, settings->seeding, {-1.0, 0.0});
+  facts.traits.solved = -100.0;  // Gymnasium's reward_threshold
   return to_world("acrobot", Acrobot{settings->equations, facts.traits.libm}, facts,
                   settings->bins);
 }

@@ -214,6 +214,18 @@ Spaces Bicycle::spaces() const {
   return {9, 0, settings.task == BicycleTask::goal ? 6u : 5u, {}, false};
 }
 
+// Angles between what ends or stops them; rates as far as Randlov and Alstrom's boxes tell apart,
+// twice over.
+std::vector<Measured> Bicycle::measured() const {
+  std::vector<Measured> numbers{{"theta", -stop, stop},
+                                {"theta rate", -4.0, 4.0},
+                                {"omega", -fall, fall},
+                                {"omega rate", -1.0, 1.0},
+                                {"omega acceleration", -4.0, 4.0}};
+  if (settings.task == BicycleTask::goal) numbers.push_back({"psi", -pi, pi});
+  return numbers;
+}
+
 std::vector<std::string> Bicycle::action_names() const {
   return {"steer-right lean-right",
           "steer-right",

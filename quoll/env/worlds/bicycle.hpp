@@ -22,6 +22,7 @@
 #include "quoll/env/dice.hpp"
 #include "quoll/env/drawing.hpp"
 #include "quoll/env/environment.hpp"
+#include "quoll/env/measured.hpp"
 
 namespace quoll {
 
@@ -99,6 +100,7 @@ struct Bicycle {
 
   Spaces spaces() const;
   std::vector<std::string> action_names() const;
+  std::vector<Measured> measured() const;
   Position start(auto& dice) const {
     return start_at(settings.any_heading ? between(dice, -180.0, 180.0) : settings.heading);
   }

@@ -61,8 +61,11 @@ Result<World> make(const Parameters& parameters) {
   const Result<Settings> settings = read_parameters<Settings>("cartpole", parameters);
   if (!settings) return settings.error();
   const double end = settings->sutton_barto_reward ? -1.0 : 1.0;
-  const WorldFacts facts =
+  WorldFacts facts =
       control_facts(settings->limit, settings->seeding, {std::min(end, 0.0), std::max(end, 0.0)});
+  // Gymnasium's reward_threshold of CartPole-v1 and CartPole-v0.
+  if (!settings->sutton_barto_reward && settings->limit == 500) facts.traits.solved = 475.0;
+  if (!settings->sutton_barto_reward && settings->limit == 200) facts.traits.solved = 195.0;
   if (settings->precision == Numbers::twofold) return world_of<double>(*settings, facts);
   if (settings->seeding == Seeding::gymnasium) {
     return Error{"--with precision", 0, 0, "double expected: Gymnasium's state is double", ""};

@@ -119,7 +119,8 @@ struct MountainCar {
 Result<World> make(const Parameters& parameters) {
   const Result<Settings> settings = read_parameters<Settings>("mountain-car", parameters);
   if (!settings) return settings.error();
-  const WorldFacts facts = control_facts(settings->limit, settings->seeding, {-1.0, 0.0});
+  WorldFacts facts = control_facts(settings->limit, settings->seeding, {-1.0, 0.0});
+  facts.traits.solved = -110.0;  // Gymnasium's reward_threshold
   return to_world("mountain-car", MountainCar{settings->goal_velocity}, facts, settings->bins);
 }
 

@@ -25,7 +25,7 @@ struct Landed {
 template <class Value>
 class AnySource {
  public:
-  explicit AnySource(const TabularSetup& setup) : source_(make(setup)) {
+  explicit AnySource(const LearnSetup& setup) : source_(make(setup)) {
     const std::shared_ptr<const Mdp>& mdp = setup.world->mdp;
     discount_ = mdp ? mdp->carry(setup.discount) : setup.discount;
   }
@@ -72,7 +72,7 @@ class AnySource {
   using Chance = TableSource<StochasticTable<Value>>;
   using Source = std::variant<Fixed, Chance, EnvironmentSource>;
 
-  static Source make(const TabularSetup& setup) {
+  static Source make(const LearnSetup& setup) {
     const World& world = *setup.world;
     if (!world.mdp) {
       return EnvironmentSource(world.make({1, setup.seed, setup.episode_steps, nullptr}));

@@ -22,7 +22,7 @@ struct AsPrinted {
   using Value = double;
   static constexpr bool own_step = true;
 
-  AsPrinted(const TabularSetup& setup, PairLayout layout, const std::vector<std::uint64_t>& begin)
+  AsPrinted(const LearnSetup& setup, PairLayout layout, const std::vector<std::uint64_t>& begin)
       : reward_(initial_rewards_per_pair(setup, layout, begin)) {}
 
   // 1

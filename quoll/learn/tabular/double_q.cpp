@@ -28,7 +28,7 @@ class DoubleQ {
   using Value = V;
   static constexpr bool looks_ahead = false;
 
-  DoubleQ(const TabularSetup& setup, const ValueTable<V>& table)
+  DoubleQ(const LearnSetup& setup, const ValueTable<V>& table)
       : step_size_(setup.step_size),
         part_{ValueTable<V>(table.begin(), static_cast<V>(setup.initial_value)),
               ValueTable<V>(table.begin(), static_cast<V>(setup.initial_value))} {}

@@ -25,7 +25,7 @@ class DynaQ {
   using Value = double;
   static constexpr bool looks_ahead = false;
 
-  DynaQ(const TabularSetup& setup, const ValueTable<double>& table)
+  DynaQ(const LearnSetup& setup, const ValueTable<double>& table)
       : step_size_(setup.step_size),
         discount_(setup.discount),
         kappa_(setup.of_method.kappa),
@@ -90,7 +90,7 @@ class DynaQ {
 };
 
 template <bool plus>
-std::unique_ptr<Learner> make(const TabularSetup& setup) {
+std::unique_ptr<Learner> make(const LearnSetup& setup) {
   return std::make_unique<MethodLearner<DynaQ<plus>>>(setup);
 }
 

@@ -23,7 +23,7 @@ class EmpiricalModel {
   using Value = double;
   static constexpr bool looks_ahead = false;
 
-  EmpiricalModel(const TabularSetup& setup, const ValueTable<double>& table)
+  EmpiricalModel(const LearnSetup& setup, const ValueTable<double>& table)
       : planning_(known_pairs_only(setup)),
         model_(table.pairs()),
         states_(table.states()),
@@ -63,7 +63,7 @@ class EmpiricalModel {
   bool acts_on_values_;
 };
 
-std::unique_ptr<Learner> make(const TabularSetup& setup) {
+std::unique_ptr<Learner> make(const LearnSetup& setup) {
   return std::make_unique<MethodLearner<EmpiricalModel>>(setup);
 }
 

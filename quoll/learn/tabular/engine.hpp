@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "quoll/act/rows.hpp"
+#include "quoll/learn/greedy_rows.hpp"
 #include "quoll/learn/learner.hpp"
 #include "quoll/learn/tabular/guard.hpp"
 #include "quoll/learn/tabular/rule.hpp"
@@ -21,11 +23,11 @@
 namespace quoll {
 
 template <UpdateRule Rule, class Source, template <class> class Rows>
-class TabularLearner final : public Learner {
+class TabularLearner final : public Learner, public GreedyRows {
  public:
   using Value = typename Rule::Value;
 
-  TabularLearner(const TabularSetup& setup, Rule rule, Source source, std::uint64_t states,
+  TabularLearner(const LearnSetup& setup, Rule rule, Source source, std::uint64_t states,
                  PairLayout layout, std::vector<std::uint64_t> begin)
       : begin_(std::move(begin)),
         rule_(std::move(rule)),
@@ -88,6 +90,13 @@ class TabularLearner final : public Learner {
       }
     }
     return out;
+  }
+
+  std::optional<Action> greedy_action(State s) const override {
+    return best_visited(
+        static_cast<Action>(begin_[s + 1] - begin_[s]),
+        [&](Action a) { return values_[rows_.pair(s, a)]; },
+        [&](Action a) { return visits_[rows_.pair(s, a)]; });
   }
 
   void persist(Archive& archive) override {

@@ -26,7 +26,7 @@ class ExpectedSarsa {
   using Value = V;
   static constexpr bool looks_ahead = false;
 
-  ExpectedSarsa(const TabularSetup& setup, const ValueTable<V>&)
+  ExpectedSarsa(const LearnSetup& setup, const ValueTable<V>&)
       : step_size_(setup.step_size), exploration_(setup.exploration) {}
 
   Change learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {

@@ -11,7 +11,7 @@
 namespace quoll {
 
 /// One value per pair of the layout: setup.initial_rewards (per choice), or 0 where there are none.
-inline std::vector<double> initial_rewards_per_pair(const TabularSetup& setup, PairLayout layout,
+inline std::vector<double> initial_rewards_per_pair(const LearnSetup& setup, PairLayout layout,
                                                     const std::vector<std::uint64_t>& begin) {
   std::vector<double> rewards(layout.pairs, 0.0);
   if (setup.initial_rewards.empty()) return rewards;

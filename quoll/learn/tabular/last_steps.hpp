@@ -15,7 +15,7 @@ namespace quoll {
 template <class V>
 class LastSteps {
  public:
-  LastSteps(const TabularSetup& setup, const ValueTable<V>& table)
+  LastSteps(const LearnSetup& setup, const ValueTable<V>& table)
       : step_size_(setup.step_size), begin_(table.begin()), most_(setup.of_method.return_steps) {}
 
   /// Keeps a step; when n are kept, learns from the oldest and forgets it.
@@ -61,7 +61,7 @@ class LastSteps {
 };
 
 /// Methods with a return of n steps: n at least 1.
-inline Result<void> check_return_steps(const TabularSetup& setup) {
+inline Result<void> check_return_steps(const LearnSetup& setup) {
   if (setup.of_method.return_steps > 0) return {};
   return Error{"--return-steps", 0, 0, "a whole number of at least 1 expected, not '0'", ""};
 }

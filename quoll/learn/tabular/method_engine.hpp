@@ -6,10 +6,12 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "quoll/act/reverse_starts.hpp"
+#include "quoll/learn/greedy_rows.hpp"
 #include "quoll/learn/learner.hpp"
 #include "quoll/learn/tabular/any_source.hpp"
 #include "quoll/learn/tabular/guard.hpp"
@@ -19,12 +21,12 @@
 namespace quoll {
 
 template <Method M>
-class MethodLearner final : public Learner {
+class MethodLearner final : public Learner, public GreedyRows {
  public:
   using Value = typename M::Value;
   using Table = ValueTable<Value>;
 
-  explicit MethodLearner(const TabularSetup& setup)
+  explicit MethodLearner(const LearnSetup& setup)
       : table_(AnySource<Value>::rows_of(*setup.world), static_cast<Value>(setup.initial_value)),
         method_(setup, table_),
         source_(setup),
@@ -73,6 +75,16 @@ class MethodLearner final : public Learner {
     out.q.assign(table_.values(), table_.values() + table_.pairs());
     if constexpr (requires { method_.estimates(table_, out); }) method_.estimates(table_, out);
     return out;
+  }
+
+  std::optional<Action> greedy_action(State s) const override {
+    if constexpr (requires(Estimates out) { method_.estimates(table_, out); }) {
+      return std::nullopt;
+    } else {
+      return best_visited(
+          table_.actions(s), [&](Action a) { return table_[table_.pair(s, a)]; },
+          [&](Action a) { return table_.visits(table_.pair(s, a)); });
+    }
   }
 
   void persist(Archive& archive) override {
@@ -282,7 +294,7 @@ class MethodLearner final : public Learner {
 
 /// The learner of a method that exists for both precisions.
 template <template <class> class M>
-std::unique_ptr<Learner> method_learner(const TabularSetup& setup) {
+std::unique_ptr<Learner> method_learner(const LearnSetup& setup) {
   if (setup.precision == Precision::twofold) {
     return std::make_unique<MethodLearner<M<double>>>(setup);
   }

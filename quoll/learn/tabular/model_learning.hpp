@@ -11,7 +11,7 @@
 namespace quoll {
 
 /// LearnerEntry::check of methods that hope for the most.
-inline Result<void> needs_value_range(const TabularSetup& setup) {
+inline Result<void> needs_value_range(const LearnSetup& setup) {
   return finite_value_range(*setup.world, setup.rewards, setup.discount, setup.method);
 }
 
@@ -23,7 +23,7 @@ inline bool count(CountedModel& model, const Step& step) {
 
 /// The plan of a policy that takes only what was tried: whoever gets where nothing was is worth the
 /// least that is possible.
-inline Planning known_pairs_only(const TabularSetup& setup) {
+inline Planning known_pairs_only(const LearnSetup& setup) {
   Planning planning;
   planning.discount = setup.discount;
   double low = 0.0;
@@ -37,7 +37,7 @@ inline Planning known_pairs_only(const TabularSetup& setup) {
 }
 
 /// The plan of somebody who takes what was not tried for the best there can be; needs rewards.
-inline Planning unknown_pairs_best(const TabularSetup& setup) {
+inline Planning unknown_pairs_best(const LearnSetup& setup) {
   Planning planning = known_pairs_only(setup);
   planning.unknown = value_range(*setup.rewards, setup.discount).second;
   return planning;

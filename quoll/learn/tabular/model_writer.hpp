@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "quoll/learn/tabular/counted_model.hpp"
@@ -14,8 +15,10 @@ namespace quoll {
 /// Writes choice after choice, state after state. The state after the last is the end of all ways.
 class ModelWriter {
  public:
-  /// For about so many choices.
-  ModelWriter(std::uint64_t states, std::uint64_t choices) : end_(static_cast<State>(states)) {
+  /// For about so many choices. `numbers`, if not empty: what the successors that are told are
+  /// called in the model; it must outlive the writer.
+  ModelWriter(std::uint64_t states, std::uint64_t choices, std::span<const State> numbers = {})
+      : end_(static_cast<State>(states)), numbers_(numbers) {
     arrays_.choice_begin.reserve(states + 2);
     arrays_.next.reserve(choices);
     arrays_.reward.reserve(choices);
@@ -29,7 +32,7 @@ class ModelWriter {
 
   /// A choice that ends everything and is worth this much.
   void leave(double value) {
-    outcome(end_, 1.0);
+    outcome(the_end, 1.0);
     finish_choice(value);
   }
 
@@ -62,7 +65,8 @@ class ModelWriter {
     if (probability != 1.0 || !arrays_.probability.empty()) {
       arrays_.probability.push_back(probability);
     }
-    arrays_.next.push_back(next == the_end ? end_ : next);
+    const bool renamed = next != the_end && !numbers_.empty();
+    arrays_.next.push_back(next == the_end ? end_ : renamed ? numbers_[next] : next);
   }
   void finish_choice(double reward) {
     arrays_.reward.push_back(reward);
@@ -82,6 +86,7 @@ class ModelWriter {
 
   bool single_ = true;
   State end_;
+  std::span<const State> numbers_;
   Action next_action_ = 0, most_actions_ = 0;
   MdpArrays arrays_;
 };

@@ -30,7 +30,7 @@ class NStep {
   using Value = V;
   static constexpr bool looks_ahead = false;
 
-  NStep(const TabularSetup& setup, const ValueTable<V>& table) : kept_(setup, table) {}
+  NStep(const LearnSetup& setup, const ValueTable<V>& table) : kept_(setup, table) {}
 
   Change learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {
     // 1

@@ -16,7 +16,7 @@ class OneStep {
   using Value = typename Rule::Value;
   static constexpr bool looks_ahead = false;
 
-  OneStep(const TabularSetup& setup, const ValueTable<Value>& table)
+  OneStep(const LearnSetup& setup, const ValueTable<Value>& table)
       : rule_(setup, PairLayout{0, table.pairs()}, table.begin()), step_size_(setup.step_size) {}
 
   Change learn(const Step& step, ValueTable<Value>& table, const ChoiceDraws& draws) {

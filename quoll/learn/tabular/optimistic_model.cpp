@@ -33,7 +33,7 @@ class OptimisticModel {
   using Value = double;
   static constexpr bool looks_ahead = false;
 
-  OptimisticModel(const TabularSetup& setup, const ValueTable<double>& table)
+  OptimisticModel(const LearnSetup& setup, const ValueTable<double>& table)
       : certain_(setup.world->traits.deterministic),
         first_tie_(setup.exploration.first_tie),
         begin_(table.begin()),
@@ -148,7 +148,7 @@ class OptimisticModel {
     return most;
   }
 
-  static Optimism optimism_of(const TabularSetup& setup) {
+  static Optimism optimism_of(const LearnSetup& setup) {
     Optimism optimism;
     const MethodSettings& given = setup.of_method;
     const double horizon = setup.discount < 1.0 ? 1.0 / (1.0 - setup.discount) : 1000.0;
@@ -223,7 +223,7 @@ class OptimisticModel {
   State widest_ = 0;
 };
 
-std::unique_ptr<Learner> make(const TabularSetup& setup) {
+std::unique_ptr<Learner> make(const LearnSetup& setup) {
   return std::make_unique<MethodLearner<OptimisticModel>>(setup);
 }
 

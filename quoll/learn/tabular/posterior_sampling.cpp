@@ -28,7 +28,7 @@ class PosteriorSampling {
   using Value = double;
   static constexpr bool looks_ahead = false;
 
-  PosteriorSampling(const TabularSetup& setup, const ValueTable<double>& table)
+  PosteriorSampling(const LearnSetup& setup, const ValueTable<double>& table)
       : begin_(table.begin()),
         planning_(known_pairs_only(setup)),
         posterior_{setup.rewards->low(), setup.rewards->high(), setup.world->traits.deterministic},
@@ -88,7 +88,7 @@ class PosteriorSampling {
   bool stale_ = true;
 };
 
-std::unique_ptr<Learner> make(const TabularSetup& setup) {
+std::unique_ptr<Learner> make(const LearnSetup& setup) {
   return std::make_unique<MethodLearner<PosteriorSampling>>(setup);
 }
 

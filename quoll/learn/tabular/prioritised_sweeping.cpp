@@ -35,7 +35,7 @@ class PrioritisedSweeping {
   using Value = double;
   static constexpr bool looks_ahead = false;
 
-  PrioritisedSweeping(const TabularSetup& setup, const ValueTable<double>& table)
+  PrioritisedSweeping(const LearnSetup& setup, const ValueTable<double>& table)
       : planning_(known_pairs_only(setup)),
         small_(setup.of_method.backups == Backups::small),
         backups_(setup.of_method.planning_backups),
@@ -159,7 +159,7 @@ class PrioritisedSweeping {
   std::vector<double> used_;     // U, for small ones
 };
 
-std::unique_ptr<Learner> make(const TabularSetup& setup) {
+std::unique_ptr<Learner> make(const LearnSetup& setup) {
   return std::make_unique<MethodLearner<PrioritisedSweeping>>(setup);
 }
 

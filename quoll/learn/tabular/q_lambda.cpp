@@ -47,7 +47,7 @@ class QLambda {
   static constexpr bool looks_ahead = true;
   static constexpr double least = 1e-3;
 
-  QLambda(const TabularSetup& setup, const ValueTable<V>& table)
+  QLambda(const LearnSetup& setup, const ValueTable<V>& table)
       : step_size_(setup.step_size), begin_(table.begin()), lambda_(setup.of_method.trace_decay) {}
 
   Change learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {

@@ -23,7 +23,7 @@ struct QLearning {
   using Value = V;
   static constexpr bool own_step = false;
 
-  QLearning(const TabularSetup&, PairLayout, const std::vector<std::uint64_t>&) {}
+  QLearning(const LearnSetup&, PairLayout, const std::vector<std::uint64_t>&) {}
 
   // 2
   Target target(std::uint64_t, double reward, double discount, double best_next, std::uint32_t) {
@@ -36,7 +36,7 @@ struct QLearning {
 template <class V>
 using QLearningStep = OneStep<QLearning<V>>;
 
-std::unique_ptr<Learner> make(const TabularSetup& setup) {
+std::unique_ptr<Learner> make(const LearnSetup& setup) {
   if (setup.starts.kind() >= StartStates::Kind::each_pair) {
     return method_learner<QLearningStep>(setup);
   }
@@ -44,7 +44,7 @@ std::unique_ptr<Learner> make(const TabularSetup& setup) {
   return tabular<QLearning<float>>(setup);
 }
 
-std::vector<Update> replay_script(const TabularSetup& setup, std::span<const Update> script) {
+std::vector<Update> replay_script(const LearnSetup& setup, std::span<const Update> script) {
   if (setup.precision == Precision::twofold) return replay<QLearning<double>>(setup, script);
   return replay<QLearning<float>>(setup, script);
 }

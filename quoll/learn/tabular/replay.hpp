@@ -12,7 +12,7 @@
 namespace quoll {
 
 template <UpdateRule Rule>
-std::vector<Update> replay(const TabularSetup& setup, std::span<const Update> script) {
+std::vector<Update> replay(const LearnSetup& setup, std::span<const Update> script) {
   using Value = typename Rule::Value;
   const Mdp& mdp = *setup.world->mdp;
   const std::vector<std::uint64_t>& begin = mdp.arrays().choice_begin;

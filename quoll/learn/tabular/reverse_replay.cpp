@@ -27,7 +27,7 @@ class ReverseReplay {
   using Value = V;
   static constexpr bool looks_ahead = false;
 
-  ReverseReplay(const TabularSetup& setup, const ValueTable<V>& table)
+  ReverseReplay(const LearnSetup& setup, const ValueTable<V>& table)
       : step_size_(setup.step_size), begin_(table.begin()), episode_(64) {
     constexpr double least = 64.0, most = 65'536.0;
     const double horizons = setup.discount < 1.0 ? 4.0 / (1.0 - setup.discount) : most;

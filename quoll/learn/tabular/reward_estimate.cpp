@@ -21,7 +21,7 @@ struct RewardEstimate {
   using Value = V;
   static constexpr bool own_step = true;
 
-  RewardEstimate(const TabularSetup& setup, PairLayout layout,
+  RewardEstimate(const LearnSetup& setup, PairLayout layout,
                  const std::vector<std::uint64_t>& begin)
       : reward_(initial_rewards_per_pair(setup, layout, begin)) {}
 
@@ -42,12 +42,12 @@ struct RewardEstimate {
   std::vector<double> reward_;
 };
 
-std::unique_ptr<Learner> make(const TabularSetup& setup) {
+std::unique_ptr<Learner> make(const LearnSetup& setup) {
   if (setup.precision == Precision::twofold) return tabular<RewardEstimate<double>>(setup);
   return tabular<RewardEstimate<float>>(setup);
 }
 
-std::vector<Update> replay_script(const TabularSetup& setup, std::span<const Update> script) {
+std::vector<Update> replay_script(const LearnSetup& setup, std::span<const Update> script) {
   if (setup.precision == Precision::twofold) return replay<RewardEstimate<double>>(setup, script);
   return replay<RewardEstimate<float>>(setup, script);
 }

@@ -12,7 +12,7 @@
 
 namespace quoll {
 
-struct TabularSetup;
+struct LearnSetup;
 
 /// What a rule aims at: the reward it went by (observed, or its own estimate) and the target.
 struct Target {

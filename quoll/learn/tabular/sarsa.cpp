@@ -24,7 +24,7 @@ class Sarsa {
   using Value = V;
   static constexpr bool looks_ahead = true;
 
-  Sarsa(const TabularSetup& setup, const ValueTable<V>&) : step_size_(setup.step_size) {}
+  Sarsa(const LearnSetup& setup, const ValueTable<V>&) : step_size_(setup.step_size) {}
 
   // 3
   Change learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {

@@ -11,7 +11,7 @@ namespace quoll {
 
 /// The learner of a rule for the source and the layout that the world has.
 template <class Rule>
-std::unique_ptr<Learner> tabular(const TabularSetup& setup) {
+std::unique_ptr<Learner> tabular(const LearnSetup& setup) {
   using Value = typename Rule::Value;
   using Chance = TableSource<StochasticTable<Value>>;
   using Fixed = TableSource<DeterministicTable<Value>>;

@@ -30,7 +30,7 @@ class TreeBackup {
   using Value = V;
   static constexpr bool looks_ahead = false;
 
-  TreeBackup(const TabularSetup& setup, const ValueTable<V>& table) : kept_(setup, table) {}
+  TreeBackup(const LearnSetup& setup, const ValueTable<V>& table) : kept_(setup, table) {}
 
   Change learn(const Step& step, ValueTable<V>& table, const ChoiceDraws& draws) {
     // 1, 2

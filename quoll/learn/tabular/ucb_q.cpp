@@ -31,7 +31,7 @@ class UcbQ {
   using Value = V;
   static constexpr bool looks_ahead = false;
 
-  UcbQ(const TabularSetup& setup, const ValueTable<V>& table)
+  UcbQ(const LearnSetup& setup, const ValueTable<V>& table)
       : step_size_(setup.step_size),
         greedy_(setup.exploration),
         q_(table.begin(), static_cast<V>(setup.initial_value)) {

@@ -81,7 +81,7 @@ TEST(Methods, ReturnsChangeSignWhenTheTurnPasses) {
   }
   // An episode each to see C, B and A; double-q needs some more until both tables have.
   for (const LearnerEntry& entry : learners()) {
-    if (entry.traits.directed || entry.traits.plans || !entry.sound ||
+    if (entry.traits.directed || entry.traits.plans || !entry.sound || entry.traits.approximates ||
         entry.method == "dyna-q-plus")
       continue;
     LearnSettings settings = half_steps(entry.method);

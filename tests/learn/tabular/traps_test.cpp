@@ -136,7 +136,7 @@ TEST(Traps, UcbQWithAShortenedHorizonFails) {
   const Race race(lake, lake.discount, 5000);
   const LearnSettings settings = exploring("uniform", 0.0, "ucb-q");
   EXPECT_GT(race.steps(settings, 1'000'000), 0u);
-  TabularSetup shortened = *resolve(settings, lake);
+  LearnSetup shortened = *resolve(settings, lake);
   ASSERT_NEAR(shortened.step_size.value, 100.0, 1e-9);
   shortened.step_size.value *= 0.1;
   EXPECT_EQ(race.steps(*(*find_learner(settings))->make(shortened), 1'000'000), 0u);

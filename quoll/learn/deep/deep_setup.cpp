@@ -1,0 +1,236 @@
+#include "quoll/learn/deep/deep_setup.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "quoll/base/text.hpp"
+
+namespace quoll {
+namespace {
+
+// The index of a word among `names`, or `habit` for "auto".
+template <class Enum, std::size_t n>
+Result<Enum> word(std::string_view text, const std::string_view (&names)[n], Enum habit,
+                  std::string_view flag) {
+  if (text == "auto") return habit;
+  const auto* const found = std::find(std::begin(names), std::end(names), text);
+  if (found != std::end(names)) return static_cast<Enum>(found - std::begin(names));
+  std::string list = "auto";
+  for (const std::string_view name : names) list += ", " + std::string(name);
+  return Error{std::string(flag), 0, 0,
+               "one of " + list + " expected, not '" + std::string(text) + "'",
+               nearest(text, std::span<const std::string_view>(names))};
+}
+
+std::vector<std::string_view> parts(std::string_view text) {
+  std::vector<std::string_view> list;
+  if (text == "none" || text.empty()) return list;
+  for (std::size_t begin = 0;;) {
+    const std::size_t comma = text.find(',', begin);
+    list.push_back(text.substr(begin, comma - begin));
+    if (comma == std::string_view::npos) return list;
+    begin = comma + 1;
+  }
+}
+
+constexpr std::uint64_t most_units = 65536;
+
+std::optional<std::uint32_t> count(std::string_view text) {
+  std::uint32_t number = 0;
+  const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = wrong == std::errc() && end == text.data() + text.size();
+  if (!whole || number == 0 || number > most_units) return std::nullopt;
+  return number;
+}
+
+// "16x3" or "32x8/4".
+std::optional<nn::LayerSpec> convolution(std::string_view text) {
+  const std::size_t cross = text.find('x'), slash = text.find('/');
+  if (cross == std::string_view::npos) return std::nullopt;
+  const auto units = count(text.substr(0, cross));
+  const auto kernel = count(text.substr(
+      cross + 1, slash == std::string_view::npos ? std::string_view::npos : slash - cross - 1));
+  const auto stride = slash == std::string_view::npos ? std::optional<std::uint32_t>(1)
+                                                      : count(text.substr(slash + 1));
+  if (!units || !kernel || !stride) return std::nullopt;
+  nn::LayerSpec layer;
+  layer.units = *units;
+  layer.kernel = *kernel;
+  layer.stride = *stride;
+  return layer;
+}
+
+Result<std::vector<nn::LayerSpec>> layers(const DeepSettings& settings, const Spaces& spaces,
+                                          const DeepHabits& habits) {
+  std::vector<nn::LayerSpec> list;
+  const bool planes = spaces.shape[0] > 0;
+  std::string_view filters = settings.filters;
+  if (filters == "auto") filters = planes ? habits.filters : "none";
+  for (const std::string_view part : parts(filters)) {
+    const auto layer = convolution(part);
+    if (!layer) {
+      return Error{
+          "--filters", 0, 0,
+          "COUNTxSIZE or COUNTxSIZE/STRIDE expected, such as 16x3, not '" + std::string(part) + "'",
+          ""};
+    }
+    if (!planes) {
+      return Error{"--filters", 0, 0,
+                   "convolutions read worlds of planes; what is observed here is a list of numbers",
+                   "none"};
+    }
+    list.push_back(*layer);
+  }
+  std::string_view hidden = settings.hidden;
+  if (hidden == "auto") {
+    hidden =
+        list.empty() || habits.hidden_of_planes.empty() ? habits.hidden : habits.hidden_of_planes;
+  }
+  for (const std::string_view part : parts(hidden)) {
+    const auto units = count(part);
+    if (!units) {
+      return Error{"--hidden", 0, 0,
+                   "sizes from 1 to " + std::to_string(most_units) +
+                       " expected, such as 120,84, or none, not '" + std::string(part) + "'",
+                   ""};
+    }
+    nn::LayerSpec layer;
+    layer.units = *units;
+    list.push_back(layer);
+  }
+  const auto activation =
+      word(settings.activation, nn::activation_names, habits.activation, "--activation");
+  if (!activation) return activation.error();
+  const bool norm = settings.layer_norm == Switch::automatic ? habits.layer_norm
+                                                             : settings.layer_norm == Switch::on;
+  for (nn::LayerSpec& layer : list) {
+    layer.activation = *activation;
+    if (norm) {
+      layer.normalisation = layer.convolution() && !habits.plain_norm ? nn::Normalisation::channels
+                                                                      : nn::Normalisation::sample;
+      layer.gain = !habits.plain_norm;
+    }
+  }
+  return list;
+}
+
+void fill_in(DeepSettings& settings, const DeepHabits& habits) {
+  const auto usual = [](std::uint64_t& value, std::uint64_t habit) {
+    if (value == 0) value = habit;
+  };
+  usual(settings.batch, habits.batch);
+  usual(settings.replay, habits.replay);
+  usual(settings.train_every, habits.train_every);
+  usual(settings.gradient_steps, habits.gradient_steps);
+  usual(settings.target_every, habits.target_every);
+  usual(settings.rollout, habits.rollout);
+  usual(settings.minibatches, habits.minibatches);
+  usual(settings.epochs, habits.epochs);
+  usual(settings.fits, habits.fits);
+  if (settings.return_decay < 0.0) settings.return_decay = habits.return_decay;
+  if (settings.clip_gradient < 0.0) settings.clip_gradient = habits.clip_gradient;
+}
+
+// A row of numbers, planes, or one number for each state.
+nn::Extent input_of(const Spaces& spaces) {
+  if (spaces.shape[0] > 0) return {spaces.shape[0], spaces.shape[1], spaces.shape[2]};
+  return {1, 1, spaces.observation > 0 ? spaces.observation : spaces.states};
+}
+
+// What the network reads.
+Result<void> find_input(DeepSetup& deep, const LearnSetup& setup, const DeepHabits& habits) {
+  deep.spaces = setup.world->make({})->spaces();
+  if (habits.by_state && deep.spaces.states > 0) {
+    deep.spaces.observation = 0;
+    deep.spaces.shape = {};
+  }
+  deep.input = input_of(deep.spaces);
+  if (deep.settings.inputs == Scaling::letters) {
+    const auto letters = NameLetters::make(*setup.world, deep.spaces);
+    if (!letters) return letters.error();
+    deep.letters = *letters;
+    deep.input = {1, 1, static_cast<std::uint32_t>(deep.letters->size())};
+  }
+  constexpr std::size_t most_inputs = std::size_t{1} << 20;
+  if (deep.input.size() > 0 && deep.input.size() <= most_inputs) return {};
+  return Error{"", 0, 0,
+               "a network reads 1 to " + std::to_string(most_inputs) + " numbers; " +
+                   setup.world->name + " shows " + std::to_string(deep.input.size()),
+               ""};
+}
+
+// How its weights begin and step.
+Result<void> find_steps(DeepSetup& deep, const DeepHabits& habits) {
+  const DeepSettings& settings = deep.settings;
+  const auto initial =
+      word(settings.initial_weights, nn::initial_names, habits.initial, "--initial-weights");
+  if (!initial) return initial.error();
+  deep.initial = *initial;
+  const auto optimiser =
+      word(settings.optimiser, nn::optimiser_names, habits.optimiser, "--optimiser");
+  if (!optimiser) return optimiser.error();
+  deep.optimiser.kind = *optimiser;
+  deep.optimiser.epsilon = settings.optimiser_epsilon;
+  deep.optimiser.decay = settings.gradient_decay;
+  const auto loss = word(settings.loss, nn::loss_names, habits.loss, "--loss");
+  if (!loss) return loss.error();
+  deep.loss = *loss;
+  const auto rate = parse_schedule(
+      settings.learning_rate == "auto" ? habits.learning_rate : settings.learning_rate, 0.0, 1e6,
+      "--learning-rate");
+  if (!rate) return rate.error();
+  deep.learning_rate = *rate;
+  const auto correction =
+      parse_schedule(settings.priority_correction, 0.0, 1.0, "--priority-correction");
+  if (!correction) return correction.error();
+  deep.priority_correction = *correction;
+  return {};
+}
+
+// How many numbers tell of an action's return.
+Result<void> find_atoms(DeepSetup& deep) {
+  const DeepSettings& settings = deep.settings;
+  if (settings.returns == Returns::mean) {
+    deep.atoms = 1;
+  } else {
+    const std::uint64_t usual = settings.returns == Returns::categorical ? 51 : 32;
+    deep.atoms = static_cast<std::uint32_t>(settings.atoms > 0 ? settings.atoms : usual);
+  }
+  if (deep.atoms > 1024 || (settings.returns == Returns::categorical && deep.atoms < 2)) {
+    return Error{"--atoms", 0, 0, "2 to 1024 expected, not " + std::to_string(deep.atoms), ""};
+  }
+  if (settings.returns == Returns::categorical &&
+      !(settings.lowest_return < settings.highest_return)) {
+    return Error{"--lowest-return", 0, 0, "less than --highest-return expected", ""};
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<DeepSetup> DeepSetup::make(const LearnSetup& setup, const DeepHabits& habits) {
+  DeepSetup deep;
+  const DeepSettings& settings = deep.settings = setup.deep;
+  fill_in(deep.settings, habits);
+  if (const auto found = find_input(deep, setup, habits); !found) return found.error();
+  auto hidden = layers(settings, deep.spaces, habits);
+  if (!hidden) return hidden.error();
+  deep.hidden = std::move(*hidden);
+  if (const auto found = find_steps(deep, habits); !found) return found.error();
+  deep.walkers =
+      settings.walkers > 0 ? static_cast<std::uint32_t>(settings.walkers) : habits.walkers;
+  deep.traces = habits.traces;
+  deep.running =
+      habits.running && settings.inputs == Scaling::automatic && deep.spaces.observation > 0;
+  deep.scaled = !deep.running && settings.inputs <= Scaling::scaled &&
+                settings.inputs != Scaling::raw && !setup.world->measured.empty();
+  if (settings.inputs == Scaling::scaled && !deep.scaled) {
+    return Error{"--inputs", 0, 0,
+                 "the ranges of what " + setup.world->name + " shows are not declared", "raw"};
+  }
+  if (const auto found = find_atoms(deep); !found) return found.error();
+  return deep;
+}
+
+}  // namespace quoll

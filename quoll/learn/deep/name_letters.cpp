@@ -1,0 +1,58 @@
+#include "quoll/learn/deep/name_letters.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "quoll/env/listed.hpp"
+
+namespace quoll {
+
+Result<std::shared_ptr<const NameLetters>> NameLetters::make(const World& world,
+                                                             const Spaces& spaces) {
+  if (spaces.observation > 0) {
+    return Error{"--inputs", 0, 0,
+                 world.name + " shows numbers; letters are for worlds whose states have names",
+                 "auto"};
+  }
+  const Result<std::shared_ptr<const Mdp>> states = listed(world);
+  if (!states) return Error{"--inputs", 0, 0, states.error().expected, "auto"};
+  const Mdp& mdp = **states;
+  // Which letters stand at each place of what somebody acts in, then the input of each.
+  constexpr std::uint32_t none = ~std::uint32_t{0};
+  std::vector<std::array<std::uint32_t, 256>> inputs;
+  std::vector<std::size_t> long_enough;  // names that reach the place
+  std::size_t names = 0;
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (mdp.terminal(s)) continue;
+    ++names;
+    const std::string name = mdp.state_name(s);
+    while (inputs.size() < name.size()) inputs.emplace_back().fill(none);
+    long_enough.resize(inputs.size());
+    for (std::size_t i = 0; i < name.size(); ++i) {
+      ++long_enough[i];
+      inputs[i][static_cast<unsigned char>(name[i])] = 0;
+    }
+  }
+  auto letters = std::make_shared<NameLetters>();
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const auto missing = std::count(inputs[i].begin(), inputs[i].end(), none);
+    const bool tells = missing < 255 || long_enough[i] < names;
+    for (std::uint32_t& input : inputs[i]) {
+      if (input == none) continue;
+      input = tells ? static_cast<std::uint32_t>(letters->size_++) : none;
+    }
+  }
+  for (State s = 0; s < mdp.states(); ++s) {
+    const std::string name = mdp.state_name(s);
+    letters->begin_.push_back(letters->spots_.size());
+    for (std::size_t i = 0; i < std::min(name.size(), inputs.size()); ++i) {
+      const std::uint32_t input = inputs[i][static_cast<unsigned char>(name[i])];
+      if (input != none) letters->spots_.push_back(input);
+    }
+  }
+  letters->begin_.push_back(letters->spots_.size());
+  return std::shared_ptr<const NameLetters>(std::move(letters));
+}
+
+}  // namespace quoll

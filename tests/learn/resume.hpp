@@ -1,0 +1,22 @@
+#pragma once
+// Going on where a learner stands, by way of what it saves.
+
+#include <gtest/gtest.h>
+
+#include <span>
+#include <vector>
+
+#include "worlds.hpp"
+
+namespace quoll::learn_tests {
+
+/// `to`, new of the same settings, goes on where `from` stands; what it then saves is the same.
+inline void resume(Learner& from, Learner& to) {
+  const std::vector<std::byte> bytes = saved(from);
+  Archive archive{std::span<const std::byte>(bytes)};
+  archive("learner", to);
+  ASSERT_TRUE(archive.good() && archive.at_end()) << archive.error().expected;
+  ASSERT_EQ(saved(to), bytes);
+}
+
+}  // namespace quoll::learn_tests
