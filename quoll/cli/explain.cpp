@@ -369,7 +369,7 @@ void declare_explain(Options& options) {
                  "the first N steps of a run; without it the first episode, at most 10 steps");
   options.option("--state", &given->state, "STATE", "where the values of one state come from");
   options.option("--run", &given->run, "FILE",
-                 "with --state: the values of a saved run beside them");
+                 "with --state: the values of a saved run (or of its folder) beside them");
   std::vector<Setting> settings = settings_of(defaults);
   for (Setting& setting : settings) {
     if (setting.name == "discount") {

@@ -6,6 +6,7 @@
 #include "quoll/base/text.hpp"
 #include "quoll/cli/explain.hpp"
 #include "quoll/cli/judged_run.hpp"
+#include "quoll/cli/policy_file.hpp"
 #include "quoll/env/listed.hpp"
 
 namespace quoll::cli {
@@ -69,7 +70,7 @@ Exit explain_learned(const World& world, const StateQuestion& question,
   named.mdp = *states;
   const Result<State> state = parse_state(named, question.state, "--state");
   if (!state) return fail(state.error());
-  const Result<Run> run = Run::load(question.run, false);
+  const Result<Run> run = Run::load(run_file(question.run), false);
   if (!run) return fail(run.error());
   const std::string missing = no_table(*run);
   if (!missing.empty()) return fail({"--run", 0, 0, missing, ""});

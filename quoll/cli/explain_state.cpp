@@ -10,6 +10,7 @@
 #include "quoll/cli/explain.hpp"
 #include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/learn_report.hpp"
+#include "quoll/cli/policy_file.hpp"
 #include "quoll/report/explain_text.hpp"
 #include "quoll/solve/solver.hpp"
 
@@ -231,7 +232,7 @@ std::string json_of_answer(const StateAnswer& answer, const World& world) {
 
 Result<void> add_run(StateAnswer& answer, const WorldOption& option, const std::string& file,
                      double discount_asked) {
-  const Result<Run> run = Run::load(file);
+  const Result<Run> run = Run::load(run_file(file));
   if (!run) return run.error();
   if (run->source().name != option.name) {
     return Error{"--run", 0, 0,

@@ -1,6 +1,7 @@
 // quoll show WORLD [graph|map|q|policy|curve]: in the terminal, or as a picture with -o FILE.svg.
 
 #include "quoll/cli/show.hpp"
+#include "quoll/cli/policy_file.hpp"
 
 #include <fmt/format.h>
 
@@ -203,7 +204,7 @@ Exit show(const ShowOptions& options) {
   const Result<std::string> kind = checked_kind(options, *world);
   if (!kind) return fail(kind.error());
   if (!options.run.empty()) {
-    const Result<Run> run = Run::load(options.run);
+    const Result<Run> run = Run::load(run_file(options.run));
     if (!run) return fail(run.error());
     if (run->source().name != options.world.name) {
       return fail({"--run", 0, 0,
