@@ -145,17 +145,20 @@ Result<RunSettings> limits_of(const LearnOptions& options) {
   return limits;
 }
 
-// Whether nothing was said about how to learn: then the world decides.
-Result<bool> leaves_it_open(const LearnOptions& options) {
+// Whether nothing was said about how to learn: then the world decides. Where no table can, it does
+// as long as no method was named.
+Result<bool> leaves_it_open(const LearnOptions& options, const World& world) {
   constexpr std::string_view no_method[] = {
       "discount",     "seed",    "seeds",      "force",      "precision",          "episode_steps",
       "reward_range", "certify", "successors", "confidence", "evaluation_episodes"};
   const auto given = options.how.given();
   if (!given) return given.error();
+  const bool tables = world.traits.states > 0;
   return options.how.config.empty() &&
          std::all_of(given->begin(), given->end(), [&](const auto& one) {
-           return std::find(std::begin(no_method), std::end(no_method), one.first) !=
-                  std::end(no_method);
+           return (!tables && one.first != "method" && one.first != "rule") ||
+                  std::find(std::begin(no_method), std::end(no_method), one.first) !=
+                      std::end(no_method);
          });
 }
 
@@ -180,7 +183,7 @@ Result<Run> open_run(const LearnOptions& options, const RunSettings& limits) {
                  "this program's random numbers",
                  ""};
   }
-  const Result<bool> open = leaves_it_open(options);
+  const Result<bool> open = leaves_it_open(options, *world);
   if (!open) return open.error();
   if (*open) settings.learn.method = "auto";
   const Result<std::vector<double>> rewards =
