@@ -56,7 +56,6 @@ run() {
 # All finished stages as one table, and what it held before.
 tell() {
   {
-    sed 1d "$table"
     for file in "$out"/*/*/seeds-*.csv; do
       [ -e "$file" ] || continue
       run=${file%/*}
@@ -65,6 +64,7 @@ tell() {
       sed 1d "$file" | awk -F, -v OFS=, -v settings="${settings##*/}" -v game="${name%-*}" \
         '{ print settings, game, $1, $2, $10, $11, $6 }'
     done
+    sed 1d "$table"
   } | sort -s -u -t, -k1,1 -k2,2 -k4,4n -k3,3n | sed "1i\\$head" >"$table.$$"
   mv "$table.$$" "$table"
 }

@@ -146,11 +146,13 @@ Result<void> find_input(DeepSetup& deep, const LearnSetup& setup, const DeepHabi
     deep.spaces.shape = {};
   }
   deep.input = input_of(deep.spaces);
+  deep.actions = deep.spaces.actions;
   if (deep.settings.inputs == Scaling::letters) {
     const auto letters = NameLetters::make(*setup.world, deep.spaces);
     if (!letters) return letters.error();
     deep.letters = *letters;
     deep.input = {1, 1, static_cast<std::uint32_t>(deep.letters->size())};
+    deep.actions = static_cast<std::uint32_t>(deep.letters->outputs());
   }
   constexpr std::size_t most_inputs = std::size_t{1} << 20;
   if (deep.input.size() > 0 && deep.input.size() <= most_inputs) return {};

@@ -46,6 +46,7 @@ struct DeepSetup {
   Spaces spaces;
   std::vector<nn::LayerSpec> hidden;  ///< convolutions and dense layers before the outputs
   nn::Extent input;                   ///< of one sample
+  std::uint32_t actions = 0;          ///< that it has outputs for
   bool scaled = false;
   bool running = false;  ///< inputs are scaled by what was seen so far
   bool traces = false;

@@ -159,7 +159,7 @@ void Distil::round() {
   for (std::size_t i = 0; i < count; ++i) {
     const Pair pair = pairs_[order_[position_ + i]];
     inputs_.write(pair.state, {}, inputs_part_.span().subspan(i * size, size));
-    chosen_[i] = pair.action;
+    chosen_[i] = output_of(pair.state, pair.action);
   }
   q_->predict(inputs_part_.data(), count, chosen_.data(), predicted_.data());
   const float share = 1.0F / static_cast<float>(count);
@@ -192,6 +192,7 @@ bool Distil::agrees() {
     for (std::size_t i = 0; i < count; ++i) {
       const State s = taught_[begin + i];
       const std::uint64_t n = row_begin_[s + 1] - row_begin_[s];
+      put_in_order(s, outputs_part_.data() + i * actions_);
       if (!*prefers_best(table_.data() + row_begin_[s], visits_.data() + s * actions_,
                          outputs_part_.data() + i * actions_, n)) {
         return false;

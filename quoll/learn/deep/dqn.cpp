@@ -61,8 +61,9 @@ class Dqn final : public NetworkLearner {
         carries_(batch_),
         weights_(batch_, 1.0F),
         chosen_(batch_),
-        legal_here_(batch_, actions_),
-        legal_next_(batch_, actions_),
+        asked_(batch_),
+        here_states_(batch_),
+        next_states_(batch_),
         targets_of_(how_, distribution_, actions_),
         seen_(deep.spaces.observation),
         before_(batch_ * inputs_.size()),
@@ -95,8 +96,8 @@ class Dqn final : public NetworkLearner {
   std::size_t batch_;
   std::vector<std::uint64_t> slots_;
   std::vector<float> rewards_, carries_, weights_;
-  std::vector<Action> chosen_;
-  std::vector<std::size_t> legal_here_, legal_next_;  // number of actions in s and s'
+  std::vector<Action> chosen_, asked_;  // as s numbers them, as the network does
+  std::vector<State> here_states_, next_states_;
   Targets targets_of_;
   std::vector<float> seen_;
   nn::Floats before_, after_;  // inputs of s and s'
@@ -171,9 +172,9 @@ void Dqn::gather(std::size_t i) {
   inputs_.write(state, seen_, before_.span().subspan(i * size, size));
   const State next = replay_.next(all.last, seen_);
   inputs_.write(next, seen_, after_.span().subspan(i * size, size));
-  if (!walkers_.unequal()) return;
-  legal_here_[i] = walkers_.actions_of(state);
-  legal_next_[i] = walkers_.actions_of(next);
+  asked_[i] = output_of(state, chosen_[i]);
+  here_states_[i] = state;
+  next_states_[i] = next;
 }
 
 // 5
@@ -188,10 +189,13 @@ void Dqn::find_targets() {
   }
   const std::size_t atoms = distribution_.atoms(), row = actions_ * atoms;
   for (std::size_t i = 0; i < batch_; ++i) {
-    targets_of_.find({values_.data() + i * row, online_values_.data() + i * row,
-                      own_values_.data() + i * row, legal_next_[i], legal_here_[i]},
-                     chosen_[i], rewards_[i], carries_[i],
-                     targets_.span().subspan(i * atoms, atoms));
+    put_in_order(next_states_[i], values_.data() + i * row);
+    put_in_order(next_states_[i], online_values_.data() + i * row);
+    put_in_order(here_states_[i], own_values_.data() + i * row);
+    targets_of_.find(
+        {values_.data() + i * row, online_values_.data() + i * row, own_values_.data() + i * row,
+         walkers_.actions_of(next_states_[i]), walkers_.actions_of(here_states_[i])},
+        chosen_[i], rewards_[i], carries_[i], targets_.span().subspan(i * atoms, atoms));
   }
 }
 
@@ -201,7 +205,7 @@ void Dqn::update() {
   find_targets();
   // 6
   q_->redraw(Weights::online);
-  q_->predict(before_.data(), batch_, chosen_.data(), predicted_.data());
+  q_->predict(before_.data(), batch_, asked_.data(), predicted_.data());
   const std::size_t atoms = distribution_.atoms();
   const float share = 1.0F / static_cast<float>(batch_);
   double loss_sum = 0.0, value_sum = 0.0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <unordered_map>
 
 #include "quoll/env/listed.hpp"
 
@@ -52,7 +53,25 @@ Result<std::shared_ptr<const NameLetters>> NameLetters::make(const World& world,
     }
   }
   letters->begin_.push_back(letters->spots_.size());
+  letters->name_outputs(mdp);
   return std::shared_ptr<const NameLetters>(std::move(letters));
+}
+
+// In the order in which they are met.
+void NameLetters::name_outputs(const Mdp& mdp) {
+  std::unordered_map<std::string, Action> outputs;
+  std::size_t most = 0;
+  for (State s = 0; s < mdp.states(); ++s) {
+    row_begin_.push_back(output_.size());
+    most = std::max<std::size_t>(most, mdp.actions(s));
+    for (Action a = 0; a < mdp.actions(s); ++a) {
+      const auto next = static_cast<Action>(outputs.size());
+      output_.push_back(
+          outputs.emplace(mdp.action_name(mdp.choice_begin(s) + a), next).first->second);
+    }
+  }
+  row_begin_.push_back(output_.size());
+  outputs_ = std::max(outputs.size(), most);
 }
 
 }  // namespace quoll

@@ -1,7 +1,9 @@
 #pragma once
 // The name of a numbered state as inputs of a network: what a board or a map is called often spells
 // what is on it. One input for each letter that some name has at a place where names differ; ends
-// do not count, nobody asks what to do there.
+// do not count, nobody asks what to do there. To tell of states that were never seen, an action
+// must mean the same in all of them: one output for each name of an action, wherever a state lists
+// it.
 
 #include <cstdint>
 #include <memory>
@@ -25,9 +27,20 @@ class NameLetters {
   std::span<const std::uint32_t> of(std::uint64_t state) const {
     return std::span(spots_).subspan(begin_[state], begin_[state + 1] - begin_[state]);
   }
+  /// Number of outputs, and that of an action as the state numbers it.
+  std::size_t outputs() const { return outputs_; }
+  /// In an end, which lists none, any action may be told of; it is its own.
+  Action output(State state, Action action) const {
+    const std::uint64_t pair = row_begin_[state] + action;
+    return pair < row_begin_[state + 1] ? output_[pair] : action;
+  }
 
  private:
-  std::size_t size_ = 0;
+  void name_outputs(const Mdp& mdp);
+
+  std::size_t size_ = 0, outputs_ = 0;
+  std::vector<Action> output_;            // per pair
+  std::vector<std::uint64_t> row_begin_;  // of them, per state
   std::vector<std::uint32_t> spots_;
   std::vector<std::size_t> begin_;
 };

@@ -99,10 +99,23 @@ void NetworkLearner::choose_actions(bool always) {
   const std::size_t row = actions_ * q_->atoms();
   for (std::uint32_t lane = 0; lane < lanes; ++lane) {
     const std::span<float> q = std::span(means_).first(walkers_.actions_now(lane));
-    if (asked) means(outputs_.data() + lane * row, q);
+    if (asked) {
+      put_in_order(walkers_.now().state[lane], outputs_.data() + lane * row);
+      means(outputs_.data() + lane * row, q);
+    }
     walkers_.actions()[lane] = choose(exploration_, q, draws_[lane], step).action;
   }
   count_visits();
+}
+
+void NetworkLearner::put_in_order(State state, float* outputs) {
+  if (!deep_.letters) return;
+  const std::size_t atoms = q_->atoms();
+  ordered_.assign(outputs, outputs + actions_ * atoms);
+  const Action n = walkers_.actions_of(state);
+  for (Action a = 0; a < n; ++a) {
+    std::copy_n(ordered_.data() + output_of(state, a) * atoms, atoms, outputs + a * atoms);
+  }
 }
 
 void NetworkLearner::count_visits() {
@@ -139,8 +152,8 @@ Estimates NetworkLearner::estimates() const {
     inputs_.write(s, {}, row.span());
     q->values(QFunction::Weights::online, row.data(), 1, values.data());
     means(values.data(), mean);
-    for (std::size_t a = 0; a < row_begin_[s + 1] - row_begin_[s]; ++a) {
-      out.q.push_back(double{mean[a]} / value_scale());
+    for (Action a = 0; a < row_begin_[s + 1] - row_begin_[s]; ++a) {
+      out.q.push_back(double{mean[output_of(s, a)]} / value_scale());
       out.visits.push_back(visits_[s * actions_ + a]);
     }
   }

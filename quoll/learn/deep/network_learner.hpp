@@ -39,11 +39,17 @@ class NetworkLearner : public Learner {
   virtual double value_scale() const { return deep_.settings.reward_scale; }
 
   /// Writes inputs_of(lane) of where each lane is, and its action; values are asked for only where
-  /// a greedy action is wanted, or if `always`: then outputs() holds them.
+  /// a greedy action is wanted, or if `always`: then outputs_ holds them, in order.
   void choose_actions(bool always);
   std::span<float> inputs_of(std::size_t lane) {
     return here_.span().subspan(lane * inputs_.size(), inputs_.size());
   }
+  /// Where the outputs are of names of actions: which is that of an action of a state, and a row of
+  /// outputs brought into the order in which the state numbers its actions.
+  Action output_of(State state, Action action) const {
+    return deep_.letters ? deep_.letters->output(state, action) : action;
+  }
+  void put_in_order(State state, float* outputs);
   /// The mean values of the actions of a row of outputs.
   void means(const float* outputs, std::span<float> q) const {
     for (std::size_t a = 0; a < q.size(); ++a) {
@@ -65,6 +71,7 @@ class NetworkLearner : public Learner {
   std::size_t actions_;
   nn::Floats outputs_;                    // of the lanes, as values() writes them
   std::vector<float> means_;              // of the actions of one state
+  std::vector<float> ordered_;            // of one row of outputs
   std::vector<std::uint64_t> row_begin_;  // of the estimates, where states are numbered
   std::vector<std::uint32_t> visits_;     // per state and action, there
   LearnProgress::Halt halt_ = LearnProgress::Halt::none;

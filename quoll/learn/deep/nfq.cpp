@@ -60,7 +60,8 @@ class Nfq final : public NetworkLearner {
         predicted_(part_size),
         slopes_(part_size),
         carries_(part_size),
-        legal_(part_size) {}
+        next_(part_size),
+        chosen_(part_size) {}
 
  private:
   void round() override;
@@ -85,12 +86,11 @@ class Nfq final : public NetworkLearner {
   const DeepSettings& how_;
   Replay replay_;
   std::vector<float> seen_;
-  // Of all of D, while it is fitted.
-  std::vector<Action> chosen_;
-  std::vector<float> targets_;
+  std::vector<float> targets_;  // of all of D
   // Of one part.
   nn::Floats rows_, values_, predicted_, slopes_, carries_;
-  std::vector<std::size_t> legal_;  // number of actions in s'
+  std::vector<State> next_;
+  std::vector<Action> chosen_;
 };
 
 void Nfq::round() {
@@ -121,22 +121,22 @@ bool Nfq::fit() {
 
 // 3
 void Nfq::find_targets() {
-  chosen_.resize(replay_.size());
   targets_.resize(replay_.size());
   in_parts([&](std::size_t begin, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       const Stretch all = stretch(replay_, replay_.slot(begin + i), how_.multi_step, discount_,
                                   static_cast<float>(how_.reward_scale));
-      chosen_[begin + i] = replay_.action(replay_.slot(begin + i));
       const State next = replay_.next(all.last, seen_);
       inputs_.write(next, seen_, row(i));
       targets_[begin + i] = all.reward;
       carries_[i] = all.carry;
-      legal_[i] = walkers_.unequal() ? walkers_.actions_of(next) : actions_;
+      next_[i] = next;
     }
     q_->values(QFunction::Weights::online, rows_.data(), count, values_.data());
     for (std::size_t i = 0; i < count; ++i) {
-      const std::span<const float> q = values_.span().subspan(i * actions_, legal_[i]);
+      put_in_order(next_[i], values_.data() + i * actions_);
+      const std::span<const float> q =
+          values_.span().subspan(i * actions_, walkers_.actions_of(next_[i]));
       if (carries_[i] != 0.0F) targets_[begin + i] += carries_[i] * q[greedy(q)];
     }
   });
@@ -147,10 +147,12 @@ double Nfq::find_gradient() {
   double loss_sum = 0.0, value_sum = 0.0, errors = 0.0, squares = 0.0;
   in_parts([&](std::size_t begin, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
-      const State state = replay_.before(replay_.slot(begin + i), seen_);
+      const std::uint64_t slot = replay_.slot(begin + i);
+      const State state = replay_.before(slot, seen_);
+      chosen_[i] = output_of(state, replay_.action(slot));
       inputs_.write(state, seen_, row(i));
     }
-    q_->predict(rows_.data(), count, &chosen_[begin], predicted_.data());
+    q_->predict(rows_.data(), count, chosen_.data(), predicted_.data());
     for (std::size_t i = 0; i < count; ++i) {
       const float target = targets_[begin + i], error = predicted_[i] - target;
       const nn::Loss one = nn::loss(deep_.loss, error);

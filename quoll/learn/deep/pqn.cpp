@@ -99,6 +99,7 @@ void Pqn::round() {
 float Pqn::value_of_next(std::size_t lane) {
   inputs_.write(walkers_.now().next, walkers_.now().next_observation, lane, row_.span());
   q_->values(QFunction::Weights::online, row_.data(), 1, row_outputs_.data());
+  put_in_order(walkers_.now().next[lane], row_outputs_.data());
   const std::span<const float> q = row_outputs_.span().first(walkers_.actions_next(lane));
   return q[greedy(q)];
 }
@@ -118,7 +119,7 @@ void Pqn::walk() {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const std::size_t i = first + lane;
     const Feedback& feedback = walkers_.now().feedback[lane];
-    chosen_[i] = walkers_.now().action[lane];
+    chosen_[i] = output_of(walkers_.now().state[lane], walkers_.now().action[lane]);
     rewards_[i] = static_cast<float>(feedback.reward * how_.reward_scale);
     carries_[i] = carry_of(feedback.terminated, feedback.turn_passes);
     over_[i] = feedback.over();

@@ -11,7 +11,7 @@ namespace quoll {
 nn::NetworkSpec network_spec(const DeepSetup& deep) {
   nn::NetworkSpec spec;
   spec.input = deep.input;
-  const std::uint32_t actions = deep.spaces.actions;
+  const std::uint32_t actions = deep.actions;
   nn::LayerSpec out;
   out.activation = nn::Activation::none;
   out.units = deep.atoms;
@@ -50,26 +50,27 @@ namespace {
 
 class QNetwork final : public QFunction {
  public:
+  // `learned_rows` = most rows of predict(), none where it only answers.
   QNetwork(const DeepSetup& deep, std::shared_ptr<const nn::Network> network, std::size_t rows,
-           bool target)
+           std::size_t learned_rows, bool target)
       : deep_(deep),
         network_(std::move(network)),
         rows_(rows),
         layout_(deep.settings.layout),
-        actions_(deep.spaces.actions),
+        actions_(deep.actions),
         atoms_(deep.atoms),
         own_(deep.input.size()),
         online_(*network_, deep.settings.noisy, true),
         target_(*network_, deep.settings.noisy, target),
-        gradients_(online_.learned.size()),
+        gradients_(learned_rows > 0 ? online_.learned.size() : 0),
         optimiser_(deep.optimiser, gradients_.size()),
         traces_(deep.traces ? gradients_.size() : 0),
         pass_(*network_, layout_ == NetworkLayout::joint ? rows * actions_ : rows, false),
-        learning_(*network_, rows, true),
-        chosen_(rows) {
+        learning_(*network_, learned_rows, learned_rows > 0),
+        chosen_(learned_rows) {
     if (layout_ != NetworkLayout::joint) return;
     wide_ = nn::Floats(rows * actions_ * network_->inputs());
-    wide_learning_ = nn::Floats(rows * network_->inputs());
+    wide_learning_ = nn::Floats(learned_rows * network_->inputs());
   }
 
   void initialise(std::uint64_t seed) {
@@ -177,7 +178,7 @@ class QNetwork final : public QFunction {
     DeepSetup calm = deep_;
     calm.settings.noisy = calm.traces = false;
     auto copy =
-        std::make_unique<QNetwork>(calm, network_, std::min<std::size_t>(rows_, 128), false);
+        std::make_unique<QNetwork>(calm, network_, std::min<std::size_t>(rows_, 128), 0, false);
     std::copy_n(online_.learned.data(), network_->parameters(), copy->online_.learned.data());
     return copy;
   }
@@ -307,7 +308,7 @@ Result<std::unique_ptr<QFunction>> make_q_network(const DeepSetup& deep, std::ui
   Result<nn::Network> network = nn::Network::make(network_spec(deep));
   if (!network) return network.error();
   auto made = std::make_unique<QNetwork>(
-      deep, std::make_shared<const nn::Network>(std::move(*network)), rows, target);
+      deep, std::make_shared<const nn::Network>(std::move(*network)), rows, rows, target);
   made->initialise(seed);
   return std::unique_ptr<QFunction>(std::move(made));
 }

@@ -88,6 +88,7 @@ float StreamQ::scaled(const Feedback& feedback) {
 float StreamQ::best_of_next() {
   inputs_.write(walkers_.now().next, walkers_.now().next_observation, 0, there_.span());
   q_->values(QFunction::Weights::online, there_.data(), 1, values_.data());
+  put_in_order(walkers_.now().next[0], values_.data());
   const std::span<const float> q = values_.span().first(walkers_.actions_next(0));
   return q[greedy(q)];
 }
@@ -107,7 +108,8 @@ void StreamQ::round() {
   const float carry = carry_of(feedback.terminated, feedback.turn_passes);
   const float next = feedback.terminated ? 0.0F : best_of_next();
   float value = 0.0F;
-  q_->predict(inputs_of(0).data(), 1, &action, &value);
+  const Action asked = output_of(walkers_.now().state[0], action);
+  q_->predict(inputs_of(0).data(), 1, &asked, &value);
   const double delta = double{reward} + double{carry} * double{next} - double{value};
   // 3, 4
   const float slope = 1.0F;

@@ -38,7 +38,7 @@ DeepSetup setup_of(const DeepSettings& settings, std::uint32_t atoms) {
   DeepSetup deep;
   deep.settings = settings;
   deep.settings.clip_gradient = 0.0;
-  deep.spaces.actions = 3;
+  deep.actions = 3;
   deep.spaces.observation = 5;
   deep.input = {1, 1, 5};
   deep.hidden = {{.units = 20, .activation = nn::Activation::tanh},
@@ -328,6 +328,28 @@ TEST(Pqn, ALinearNetworkFindsTheTable) {
     const auto one = learner(settings, world);
     one->advance(60'000, {});
     EXPECT_LT(error_of(world, *one), 1e-3) << world.name;
+  }
+}
+
+// Named outputs reach the table too, where states list other actions in other orders.
+TEST(Dqn, OutputsOfNamesFindTheTable) {
+  for (const World& world : {adventure(), star(), game()}) {
+    for (const char* const method : {"dqn", "nfq", "pqn", "stream-q"}) {
+      LearnSettings settings = network(method);
+      settings.deep.inputs = Scaling::letters;
+      settings.deep.double_q = true;
+      if (settings.method == "nfq") settings.deep.train_every = 2000;
+      settings.deep.hidden = "32";
+      settings.deep.activation = "tanh";
+      settings.deep.layer_norm = Switch::off;
+      settings.deep.optimiser = settings.method == "stream-q" ? "auto" : "adam";
+      settings.deep.learning_rate = "0.01:0.0001:8000";
+      settings.deep.reward_scale = 0.01;
+      settings.deep.return_decay = 0.0;
+      const auto one = learner(settings, world);
+      one->advance(8000, {});
+      EXPECT_LT(error_of(world, *one), 0.05) << world.name << ", " << method;
+    }
   }
 }
 
