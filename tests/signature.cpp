@@ -11,9 +11,11 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <string>
 
 #include "learn/worlds.hpp"
+#include "quoll/base/parallel.hpp"
 #include "quoll/nn/arithmetic.hpp"
 #include "quoll/solve/average_reward.hpp"
 #include "quoll/solve/finite_horizon.hpp"
@@ -138,13 +140,18 @@ std::uint64_t stepped(const World& world) {
   return hash.value;
 }
 
-std::uint64_t signature(bool parts) {
-  Hash all;
-  const auto part = [&](const std::string& name, std::uint64_t value) {
-    if (parts) std::printf("%016" PRIx64 "  %s\n", value, name.c_str());
-    all.add(value);
+// One line of the signature, and how its hash is found.
+struct Part {
+  std::string name;
+  std::function<std::uint64_t()> find;
+};
+
+std::vector<Part> parts_of(const std::vector<World>& all) {
+  std::vector<Part> list;
+  const auto part = [&](std::string name, std::function<std::uint64_t()> find) {
+    list.push_back({std::move(name), std::move(find)});
   };
-  for (const World& world : the_worlds()) {
+  for (const World& world : all) {
     const bool large = world.traits.states > learned_up_to;
     for (const LearnerEntry& entry : learners()) {
       const std::uint64_t most = entry.traits.plans        ? planned_up_to
@@ -155,29 +162,44 @@ std::uint64_t signature(bool parts) {
       for (const std::string_view explore : exploration_names) {
         if (entry.traits.directed && explore != exploration_names[0]) continue;
         part("learn " + world.name + " " + name + " --explore " + std::string(explore),
-             learned(entry, world, std::string(explore), "world", "auto"));
+             [&, explore] { return learned(entry, world, std::string(explore), "world", "auto"); });
       }
       for (const std::string_view start : start_names) {
-        part("learn " + world.name + " " + name + " --start " + std::string(start),
-             learned(entry, world, "epsilon-greedy", std::string(start), "auto"));
+        part("learn " + world.name + " " + name + " --start " + std::string(start), [&, start] {
+          return learned(entry, world, "epsilon-greedy", std::string(start), "auto");
+        });
       }
-      for (const std::string step_size : {"1", "0.1", "1e-5", "1/N^0.8", "rescaled-linear"}) {
+      for (const char* const step_size : {"1", "0.1", "1e-5", "1/N^0.8", "rescaled-linear"}) {
         if (entry.traits.plans) continue;
         part("learn " + world.name + " " + name + " --step-size " + step_size,
-             learned(entry, world, "softmax", "world", step_size));
+             [&, step_size] { return learned(entry, world, "softmax", "world", step_size); });
       }
     }
     for (const SolverEntry& entry : solvers()) {
       if (entry.needs_total && world.traits.states > with_memory_up_to) continue;
       if (world.mdp && !large) {
-        part("solve " + world.name + " " + std::string(entry.name), solved(entry, world));
+        part("solve " + world.name + " " + std::string(entry.name),
+             [&] { return solved(entry, world); });
       }
     }
     if (world.mdp && world.traits.states <= with_memory_up_to)
-      part("average, horizon " + world.name, asked_otherwise(world));
-    part("step " + world.name, stepped(world));
+      part("average, horizon " + world.name, [&] { return asked_otherwise(world); });
+    part("step " + world.name, [&] { return stepped(world); });
   }
-  return all.value;
+  return list;
+}
+
+std::uint64_t signature(bool told) {
+  const std::vector<World> all = the_worlds();
+  const std::vector<Part> list = parts_of(all);
+  std::vector<std::uint64_t> values(list.size());
+  parallel_for(list.size(), 0, [&](std::size_t i) { values[i] = list[i].find(); });
+  Hash hash;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (told) std::printf("%016" PRIx64 "  %s\n", values[i], list[i].name.c_str());
+    hash.add(values[i]);
+  }
+  return hash.value;
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ TEST(Learners, ACutRunIsTheWholeRun) {
     const auto whole = learner(settings, world);
     whole->advance(steps, {});
     const auto expected = saved(*whole);
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < 10; ++i) {
       const std::uint32_t cut = rng.below(steps + 1);
       const auto first = learner(settings, world);
       first->advance(cut, {});

@@ -338,7 +338,8 @@ TEST(Dqn, OutputsOfNamesFindTheTable) {
       LearnSettings settings = network(method);
       settings.deep.inputs = Scaling::letters;
       settings.deep.double_q = true;
-      if (settings.method == "nfq") settings.deep.train_every = 2000;
+      settings.deep.train_every = settings.method == "nfq" ? 1000 : 4;
+      settings.deep.fits = 5;
       settings.deep.hidden = "32";
       settings.deep.activation = "tanh";
       settings.deep.layer_norm = Switch::off;
