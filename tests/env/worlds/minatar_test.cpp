@@ -20,7 +20,7 @@ TEST(Minatar, SpacesAndNames) {
       ASSERT_TRUE(world) << id;
       EXPECT_EQ(world->name, names[i]);
       EXPECT_EQ(world->discount, 0.99);
-      EXPECT_EQ(world->episode_steps, 0u);
+      EXPECT_EQ(world->episode_steps, 100'000u);
       const Spaces spaces = world->make({})->spaces();
       EXPECT_EQ(spaces.actions, few ? minimal[i] : 6) << id;
       EXPECT_EQ(world->action_names.size(), spaces.actions);
