@@ -11,6 +11,7 @@
 #include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/learn_report.hpp"
 #include "quoll/cli/policy_file.hpp"
+#include "quoll/cli/same_world.hpp"
 #include "quoll/report/explain_text.hpp"
 #include "quoll/solve/solver.hpp"
 
@@ -230,8 +231,8 @@ std::string json_of_answer(const StateAnswer& answer, const World& world) {
   return json.text() + "\n";
 }
 
-Result<void> add_run(StateAnswer& answer, const WorldOption& option, const std::string& file,
-                     double discount_asked) {
+Result<void> add_run(StateAnswer& answer, const WorldOption& option, const World& world,
+                     const std::string& file, double discount_asked) {
   const Result<Run> run = Run::load(run_file(file));
   if (!run) return run.error();
   if (run->source().name != option.name) {
@@ -243,9 +244,11 @@ Result<void> add_run(StateAnswer& answer, const WorldOption& option, const std::
         "--discount", 0, 0,
         "the saved run has " + shortest(run->discount()) + ", not " + shortest(discount_asked), ""};
   }
-  if (!run->world().mdp || run->world().mdp->choices() != answer.mdp->choices()) {
+  if (!run->world().mdp) {
     return Error{"--run", 0, 0, "the saved run learns another form of " + option.name, ""};
   }
+  const Result<void> same = check_same_world(*run, file, world);
+  if (!same) return same.error();
   const Training& first = run->trainings().front();
   answer.learned = first.learner().estimates();
   answer.discount = run->discount();
@@ -266,7 +269,7 @@ Exit explain_state(const WorldOption& option, const World& world, const StateQue
   answer.state = *state;
   answer.discount = question.discount > 0.0 ? question.discount : world.discount;
   if (!question.run.empty()) {
-    const Result<void> added = add_run(answer, option, question.run, question.discount);
+    const Result<void> added = add_run(answer, option, world, question.run, question.discount);
     if (!added) return fail(added.error());
   }
   SolveSettings settings;

@@ -58,7 +58,7 @@ NetworkLearner::NetworkLearner(const LearnSetup& setup, const DeepSetup& deep,
       means_(actions_),
       row_begin_(inputs_.numbered() ? AnySource<float>::rows_of(*setup.world)
                                     : std::vector<std::uint64_t>()),
-      visits_(inputs_.numbered() ? deep.spaces.states * actions_ : 0),
+      visits_(inputs_.numbered() ? deep.spaces.states * deep.spaces.actions : 0),
       exploration_(setup.exploration),
       draws_(deep.walkers),
       here_(deep.walkers * inputs_.size()) {
@@ -122,7 +122,7 @@ void NetworkLearner::count_visits() {
   if (visits_.empty()) return;
   for (std::size_t lane = 0; lane < walkers_.count(); ++lane) {
     std::uint32_t& count =
-        visits_[walkers_.now().state[lane] * actions_ + walkers_.now().action[lane]];
+        visits_[walkers_.now().state[lane] * deep_.spaces.actions + walkers_.now().action[lane]];
     count += count < ~std::uint32_t{0};
   }
 }
@@ -154,7 +154,7 @@ Estimates NetworkLearner::estimates() const {
     means(values.data(), mean);
     for (Action a = 0; a < row_begin_[s + 1] - row_begin_[s]; ++a) {
       out.q.push_back(double{mean[output_of(s, a)]} / value_scale());
-      out.visits.push_back(visits_[s * actions_ + a]);
+      out.visits.push_back(visits_[s * deep_.spaces.actions + a]);
     }
   }
   return out;
