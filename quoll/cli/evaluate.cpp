@@ -76,8 +76,7 @@ struct Evaluated {
 /// The steps after which an episode is cut off, if nobody says.
 std::uint64_t cut_of(const World& world, const EvaluationSettings& asked) {
   if (asked.episode_steps > 0) return asked.episode_steps;
-  return world.episode_steps > 0 ? world.episode_steps
-                                 : std::max<std::uint64_t>(2000, world.traits.states);
+  return usual_cut(world);
 }
 
 std::string evaluate_json(const Evaluated& of, bool all) {

@@ -341,8 +341,7 @@ Exit explain(const ExplainOptions& options) {
     LearnSettings settings;
     const Result<void> applied = options.how.apply(settings_of(settings));
     if (!applied) return fail(applied.error());
-    return explain_state(options.world, *world, {options.state, options.run, settings.discount},
-                         options.output);
+    return explain_state(*world, {options.state, options.run, settings.discount}, options.output);
   }
   const Result<Lesson> lesson = lesson_of(options, *world);
   if (!lesson) return fail(lesson.error());

@@ -58,7 +58,6 @@ struct StateQuestion {
 };
 /// Of a world without a model: what the run learned about the state.
 Exit explain_learned(const World& world, const StateQuestion& question, const OutputOption& output);
-Exit explain_state(const WorldOption& option, const World& world, const StateQuestion& question,
-                   const OutputOption& output);
+Exit explain_state(const World& world, const StateQuestion& question, const OutputOption& output);
 
 }  // namespace quoll::cli

@@ -7,6 +7,7 @@
 #include "quoll/cli/explain.hpp"
 #include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/policy_file.hpp"
+#include "quoll/cli/same_world.hpp"
 #include "quoll/env/listed.hpp"
 
 namespace quoll::cli {
@@ -72,12 +73,12 @@ Exit explain_learned(const World& world, const StateQuestion& question,
   if (!state) return fail(state.error());
   const Result<Run> run = Run::load(run_file(question.run), false);
   if (!run) return fail(run.error());
+  if (const Result<void> same = check_same_world(*run, question.run, world); !same) {
+    return fail(same.error());
+  }
   const std::string missing = no_table(*run);
   if (!missing.empty()) return fail({"--run", 0, 0, missing, ""});
   Known known{**states, *state, run->trainings().front().learner().estimates(), no_action, *run};
-  if (run->world().name != world.name || known.estimates.q.size() != (*states)->choices()) {
-    return fail({"--run", 0, 0, "the saved run does not learn this form of " + world.name, ""});
-  }
   known.greedy = greedy_policy(known.estimates)[*state];
   return print(output.json ? json_of(known) : text_of(known)) ? done : user_error;
 }

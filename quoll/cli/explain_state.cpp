@@ -231,24 +231,17 @@ std::string json_of_answer(const StateAnswer& answer, const World& world) {
   return json.text() + "\n";
 }
 
-Result<void> add_run(StateAnswer& answer, const WorldOption& option, const World& world,
-                     const std::string& file, double discount_asked) {
+Result<void> add_run(StateAnswer& answer, const World& world, const std::string& file,
+                     double discount_asked) {
   const Result<Run> run = Run::load(run_file(file));
   if (!run) return run.error();
-  if (run->source().name != option.name) {
-    return Error{"--run", 0, 0,
-                 "the saved run learns " + run->source().name + ", not " + option.name, ""};
-  }
+  const Result<void> same = check_same_world(*run, file, world);
+  if (!same) return same.error();
   if (discount_asked > 0.0 && discount_asked != run->discount()) {
     return Error{
         "--discount", 0, 0,
         "the saved run has " + shortest(run->discount()) + ", not " + shortest(discount_asked), ""};
   }
-  if (!run->world().mdp) {
-    return Error{"--run", 0, 0, "the saved run learns another form of " + option.name, ""};
-  }
-  const Result<void> same = check_same_world(*run, file, world);
-  if (!same) return same.error();
   const Training& first = run->trainings().front();
   answer.learned = first.learner().estimates();
   answer.discount = run->discount();
@@ -259,8 +252,7 @@ Result<void> add_run(StateAnswer& answer, const WorldOption& option, const World
 
 }  // namespace
 
-Exit explain_state(const WorldOption& option, const World& world, const StateQuestion& question,
-                   const OutputOption& output) {
+Exit explain_state(const World& world, const StateQuestion& question, const OutputOption& output) {
   const Mdp& mdp = *world.mdp;
   StateAnswer answer;
   answer.mdp = &mdp;
@@ -269,7 +261,7 @@ Exit explain_state(const WorldOption& option, const World& world, const StateQue
   answer.state = *state;
   answer.discount = question.discount > 0.0 ? question.discount : world.discount;
   if (!question.run.empty()) {
-    const Result<void> added = add_run(answer, option, world, question.run, question.discount);
+    const Result<void> added = add_run(answer, world, question.run, question.discount);
     if (!added) return fail(added.error());
   }
   SolveSettings settings;

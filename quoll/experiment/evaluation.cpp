@@ -22,6 +22,11 @@ UniformPolicy uniform_policy_of(const World& world) {
   return UniformPolicy(std::move(counts), spaces.actions);
 }
 
+std::uint64_t usual_cut(const World& world) {
+  return world.episode_steps > 0 ? world.episode_steps
+                                 : std::max<std::uint64_t>(2000, world.traits.states);
+}
+
 Played play(const World& world, const Policy& policy, std::uint64_t episodes, std::uint64_t seed,
             double discount, std::uint64_t episode_steps) {
   Played played;

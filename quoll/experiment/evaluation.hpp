@@ -26,6 +26,10 @@ struct Played {
   double unknown = 0.0;  ///< share of episodes that stopped where the policy knows no action
 };
 
+/// The steps after which an episode of an evaluation is cut off, if nobody says: the world's own
+/// limit, else enough to come once to every state.
+std::uint64_t usual_cut(const World& world);
+
 /// Plays `episodes` episodes from the world's own starts with the stream "evaluation" of `seed`,
 /// each cut off after `episode_steps`. A state the policy knows nothing about ends the episode, and
 /// is counted. Policies that draw take the stream "behaviour".

@@ -288,10 +288,8 @@ RunResult Run::result(bool solve_too) const {
       seed.optimality = judge(*mdp, *result.exact, seed.policy, from, discount());
       count_optimal(*mdp, *result.exact, from, seed);
     }
-    const std::uint64_t cut = world_->episode_steps > 0
-                                  ? world_->episode_steps
-                                  : std::max<std::uint64_t>(2000, world_->traits.states);
-    seed.played = play(*world_, *policy, settings_.evaluation_episodes, seed.seed, discount(), cut);
+    seed.played = play(*world_, *policy, settings_.evaluation_episodes, seed.seed, discount(),
+                       usual_cut(*world_));
   });
   for (const SeedResult& seed : result.seeds) {
     means.push_back(seed.played.mean);

@@ -190,8 +190,11 @@ void Dqn::find_targets() {
   const std::size_t atoms = distribution_.atoms(), row = actions_ * atoms;
   for (std::size_t i = 0; i < batch_; ++i) {
     put_in_order(next_states_[i], values_.data() + i * row);
-    put_in_order(next_states_[i], online_values_.data() + i * row);
-    put_in_order(here_states_[i], own_values_.data() + i * row);
+    if (how_.munchausen) {
+      put_in_order(here_states_[i], own_values_.data() + i * row);
+    } else if (how_.double_q) {
+      put_in_order(next_states_[i], online_values_.data() + i * row);
+    }
     targets_of_.find(
         {values_.data() + i * row, online_values_.data() + i * row, own_values_.data() + i * row,
          walkers_.actions_of(next_states_[i]), walkers_.actions_of(here_states_[i])},

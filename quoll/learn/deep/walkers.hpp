@@ -38,8 +38,6 @@ class Walkers {
   /// What was next is now; lanes that are over begin anew. Once after each step().
   void go_on();
 
-  /// Whether states differ in their number of actions; otherwise it is spaces().actions everywhere.
-  bool unequal() const { return !counts_.empty(); }
   /// Number of actions where the lane is. In an end, where an episode may begin, any action does
   /// nothing, and all are told.
   Action actions_now(std::size_t lane) const { return actions_of(now_.state[lane]); }

@@ -50,8 +50,6 @@ TEST(Walkers, KnowTheActionsOfEachState) {
   const World ragged = star(), even = corridor(3);
   const LearnSetup of_ragged = setup_of(ragged), of_even = setup_of(even);
   Walkers walkers(of_ragged, 1), same(of_even, 1);
-  EXPECT_TRUE(walkers.unequal());
-  EXPECT_FALSE(same.unequal());
   EXPECT_EQ(walkers.actions_now(0), 5u);
   EXPECT_EQ(same.actions_now(0), 2u);
   walkers.actions()[0] = 3;
