@@ -52,8 +52,8 @@ std::uint64_t learned(const LearnerEntry& entry, const World& world, const std::
   for (const Precision precision : {Precision::single, Precision::twofold}) {
     LearnSettings settings;
     settings.method = entry.method;
-    settings.deep.hidden = "16";  // enough to differ
-    settings.deep.batch = 8;
+    if (entry.traits.networks) settings.deep.hidden = "16";  // enough to differ
+    if (entry.method == "dqn") settings.deep.batch = 8;
     if (entry.method == "nfq") settings.deep.fits = settings.deep.epochs = 2;  // each is the same
     settings.rule = entry.rule.empty() ? "standard" : entry.rule;
     settings.explore = explore;

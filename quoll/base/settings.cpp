@@ -142,6 +142,11 @@ std::string text_of(const Setting& setting) {
                     setting.field);
 }
 
+std::string sentence_of(const Setting& setting) {
+  const std::string sentence(setting.sentence);
+  return setting.readers.empty() ? sentence : std::string(setting.readers) + ": " + sentence;
+}
+
 std::string range_of(const Setting& setting) {
   return std::visit(
       Overload{

@@ -26,15 +26,40 @@ struct Choice {
 /// as such: low = denorm_min, high = 1 is "(0, 1]".
 struct Setting {
   std::string_view name;      ///< snake_case key; the flag is the same with '-' for '_'
-  std::string_view sentence;  ///< one sentence for people
+  std::string_view sentence;  ///< one sentence for people, without its readers
   std::variant<bool*, std::int64_t*, std::uint64_t*, double*, std::string*, Choice> field;
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
+  /// Words, ", " between them, of which one must be chosen for the field to be read; empty =
+  /// always.
+  std::string_view readers = {};
 };
 
 /// Collects the fields of a settings struct.
 class Describer {
  public:
+  /// Describes fields that only some read: d.of("dqn, nfq")("replay", ...).
+  class Part {
+   public:
+    Part(Describer& all, std::string_view readers) : all_(all), readers_(readers) {}
+    template <class T, class... Rest>
+    void operator()(std::string_view name, T& field, Rest... rest) {
+      all_(name, field, rest...);
+      all_.settings_.back().readers = readers_;
+    }
+    template <class Enum>
+    void choice(std::string_view name, Enum& field, std::span<const std::string_view> names,
+                std::string_view sentence) {
+      all_.choice(name, field, names, sentence);
+      all_.settings_.back().readers = readers_;
+    }
+
+   private:
+    Describer& all_;
+    std::string_view readers_;
+  };
+  Part of(std::string_view readers) { return {*this, readers}; }
+
   template <class T>
   void operator()(std::string_view name, T& field, std::string_view sentence) {
     settings_.push_back({name, sentence, &field});
@@ -65,6 +90,9 @@ std::vector<Setting> settings_of(Struct& values) {
 
 /// The field's value as text that assign() takes back unchanged.
 std::string text_of(const Setting& setting);
+
+/// "dqn, nfq: what it means": the sentence with its readers.
+std::string sentence_of(const Setting& setting);
 
 /// What the field takes, for help: "number in [0, 1]", "uniform | greedy | ...".
 std::string range_of(const Setting& setting);

@@ -108,10 +108,10 @@ void GivenSettings::declare_flags(Options& options, std::vector<Setting> setting
     // A discount of 0 stands for the world's own, as its sentence says.
     const std::string initial = key == "discount" && standard == "0" ? "" : standard;
     const std::string sentence =
-        std::string(setting.sentence) + (initial.empty() ? "" : " [" + initial + "]");
+        sentence_of(setting) + (initial.empty() ? "" : " [" + initial + "]");
     const auto take = [this, key](const std::string& text) { flags.emplace_back(key, text); };
     if (std::holds_alternative<bool*>(setting.field)) {
-      options.flag(names, take, std::string(setting.sentence));
+      options.flag(names, take, sentence_of(setting));
     } else {
       options.option(names, take, range_of(setting), sentence);
     }

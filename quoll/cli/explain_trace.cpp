@@ -114,6 +114,7 @@ Result<std::vector<Update>> standard_beside(const LearnSettings& settings, const
                                             std::span<const Update> updates) {
   LearnSettings standard = settings;
   standard.rule = "standard";
+  standard.initial_rewards = "world";
   standard.step_size = "1";
   standard.initial_value = "0";
   standard.precision = Precision::twofold;

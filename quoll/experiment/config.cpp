@@ -80,7 +80,7 @@ std::string config_text(const std::vector<Setting>& settings) {
                        (count && **count > std::uint64_t{INT64_MAX});
     const std::string value = text_of(setting);
     text += std::string(setting.name) + " = " + (words ? quoted(value) : value) + "  # " +
-            std::string(setting.sentence) + "\n";
+            sentence_of(setting) + "\n";
   }
   return text;
 }

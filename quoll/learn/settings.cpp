@@ -6,38 +6,42 @@
 
 #include "quoll/base/text.hpp"
 #include "quoll/learn/learner.hpp"
+#include "quoll/learn/readers.hpp"
 #include "quoll/model/graph.hpp"
 
 namespace quoll {
 
 void MethodSettings::describe(Describer& d) {
-  d("trace_decay", trace_decay, 0, 1, "q-lambda, linear-q: lambda, how far an error travels back");
-  d("return_steps", return_steps, "n-step, tree-backup: rewards in a return before the table");
-  d("planning_backups", planning_backups,
-    "dyna-q, dyna-q-plus, prioritised-sweeping: backups of the model per step");
-  d("sweep_threshold", sweep_threshold, 0, 1e300,
-    "prioritised-sweeping: smallest change that travels on, times the range of rewards");
-  d.choice("backups", backups, backups_names,
-           "prioritised-sweeping: whole pairs, or one successor at a time");
-  d("kappa", kappa, 0, 1e300, "dyna-q-plus: bonus per root of the steps since the last visit");
-  d("ucb_bonus", ucb_bonus, 0, 1e300, "ucb-q: bonus times range * sqrt(H / n)");
-  d("known_after", known_after, "optimistic-model: visits after which a pair counts as known");
-  d("bonus_variance", bonus_variance, 0, 1e300,
-    "optimistic-model: B of the bonus sqrt(B * variance / n) + C * range * sqrt(H) / n");
-  d("bonus_range", bonus_range, 0, 1e300, "optimistic-model: C of that bonus");
+  Describer::Part prioritised_sweeping = d.of("prioritised-sweeping");
+  Describer::Part optimistic = d.of("optimistic-model");
+  d.of("q-lambda, linear-q, stream-q")("trace_decay", trace_decay, 0, 1,
+                                       "lambda, how far an error travels back");
+  d.of("n-step, tree-backup")("return_steps", return_steps, "rewards in a return before the table");
+  d.of("dyna-q, dyna-q-plus, prioritised-sweeping")("planning_backups", planning_backups,
+                                                    "backups of the model per step");
+  prioritised_sweeping("sweep_threshold", sweep_threshold, 0, 1e300,
+                       "smallest change that travels on, times the range of rewards");
+  prioritised_sweeping.choice("backups", backups, backups_names,
+                              "whole pairs, or one successor at a time");
+  d.of("dyna-q-plus")("kappa", kappa, 0, 1e300, "bonus per root of the steps since the last visit");
+  d.of("ucb-q")("ucb_bonus", ucb_bonus, 0, 1e300, "bonus times range * sqrt(H / n)");
+  optimistic("known_after", known_after, "visits after which a pair counts as known");
+  optimistic("bonus_variance", bonus_variance, 0, 1e300,
+             "B of the bonus sqrt(B * variance / n) + C * range * sqrt(H) / n");
+  optimistic("bonus_range", bonus_range, 0, 1e300, "C of that bonus");
 }
 
 void LinearSettings::describe(Describer& d) {
-  d("tilings", tilings, 1, 1024,
-    "linear-q: grids over the observed numbers, each shifted a little");
-  d("tiles", tiles,
-    "linear-q: tiles of a grid in the range of each observed number, such as 8, or 8,8,4,4");
-  d("tile_step_size", tile_step_size, 0, 2, "linear-q: step size, of all tilings together");
-  d("keep_traces", keep_traces,
-    "linear-q: keep traces where an action was not greedy, unlike Watkins");
+  Describer::Part linear = d.of("linear-q");
+  linear("tilings", tilings, 1, 1024, "grids over the observed numbers, each shifted a little");
+  linear("tiles", tiles,
+         "tiles of a grid in the range of each observed number, such as 8, or 8,8,4,4");
+  linear("tile_step_size", tile_step_size, 0, 2, "step size, of all tilings together");
+  linear("keep_traces", keep_traces, "keep traces where an action was not greedy, unlike Watkins");
 }
 
 void LearnSettings::describe(Describer& d) {
+  Describer::Part tables = d.of("tables");
   d("method", method,
     "how to learn; see 'quoll list methods'; auto, or no setting of learning at all: by the world");
   d("rule", rule, "update rule: standard, as-printed (the lecture's text) or reward-estimate");
@@ -46,26 +50,30 @@ void LearnSettings::describe(Describer& d) {
   d("explore", explore,
     "how actions are chosen; see 'quoll list explorations'; auto = uniform for tables, "
     "epsilon-greedy for methods that know no table, greedy with --noisy");
-  d("epsilon", epsilon,
-    "epsilon-greedy: share of random actions, or FROM:TO:STEPS; auto = 0.1, or as the method's "
-    "networks need");
-  d("temperature", temperature,
-    "softmax: in units of value, in % of the span of rewards, or FROM:TO:STEPS of either");
-  d("ucb_constant", ucb_constant, 0, 1e6, "ucb: weight of the bonus, times the span of rewards");
-  d("count_bonus", count_bonus, 0, 1e6,
-    "count-bonus: weight of the bonus, times the span of rewards");
-  d("omega", omega, 1e-6, 1e6, "mellowmax: how far towards the largest Q, per span of rewards");
+  d.of("epsilon-greedy")(
+      "epsilon", epsilon,
+      "share of random actions, or FROM:TO:STEPS; auto = 0.1, or as the method's "
+      "networks need");
+  d.of("softmax")("temperature", temperature,
+                  "in units of value, in % of the span of rewards, or FROM:TO:STEPS of either");
+  d.of("ucb")("ucb_constant", ucb_constant, 0, 1e6,
+              "weight of the bonus, times the span of rewards");
+  d.of("count-bonus")("count_bonus", count_bonus, 0, 1e6,
+                      "weight of the bonus, times the span of rewards");
+  d.of("mellowmax")("omega", omega, 1e-6, 1e6,
+                    "how far towards the largest Q, per span of rewards");
   d("start", start, "how start states are chosen; see 'quoll list starts'");
-  d("step_size", step_size, "auto, a number in (0, 1], 1/N^w or rescaled-linear");
-  d("initial_value", initial_value, "value of pairs not visited yet: a number, or optimistic");
-  d("initial_rewards", initial_rewards,
-    "rE before the first visit, for the rules that have it: world, zero or FILE.csv");
+  tables("step_size", step_size, "auto, a number in (0, 1], 1/N^w or rescaled-linear");
+  tables("initial_value", initial_value, "value of pairs not visited yet: a number, or optimistic");
+  d.of("as-printed, reward-estimate")("initial_rewards", initial_rewards,
+                                      "rE before the first visit: world, zero or FILE.csv");
   d.choice("ties", ties, ties_names, "which of equally good actions is taken while learning");
-  d("tolerance", tolerance, -1, 1e300,
-    "stable: largest movement relative to max(1, |Q|); -1 = 0 where that proves, else 0.001");
+  tables("tolerance", tolerance, -1, 1e300,
+         "how far a stable Q still moves, relative to max(1, |Q|); -1 = 0 where that proves, else "
+         "0.001");
   d("episode_steps", episode_steps,
     "steps after which an episode is cut off; 0 = the world's limit, or as 'list starts' says");
-  d.choice("precision", precision, precision_names, "numbers of the table");
+  tables.choice("precision", precision, precision_names, "numbers of the table");
   d("reward_range", reward_range,
     "smallest and largest reward of a step, LOW,HIGH; empty = as the world declares");
   of_method.describe(d);
@@ -284,30 +292,6 @@ double value_bound(const LearnSetup& setup, const World& world) {
   return std::max(std::fabs(setup.initial_value), largest / (1.0 - setup.discount));
 }
 
-// A setting of tables that was given to a method that knows none.
-Result<void> no_setting_of_tables(const LearnSettings& settings) {
-  LearnSettings given = settings, usual;
-  Describer list, usual_list;
-  given.describe(list);
-  usual.describe(usual_list);
-  constexpr std::string_view of_tables[] = {"step_size", "initial_value", "initial_rewards",
-                                            "tolerance", "precision"};
-  for (std::size_t i = 0; i < list.settings().size(); ++i) {
-    const Setting& setting = list.settings()[i];
-    const auto* const found =
-        std::find(std::begin(of_tables), std::end(of_tables), std::string_view(setting.name));
-    if (found == std::end(of_tables)) continue;
-    if (text_of(setting) == text_of(usual_list.settings()[i])) continue;
-    std::string flag = "--" + std::string(setting.name);
-    std::replace(flag.begin(), flag.end(), '_', '-');
-    return Error{flag, 0, 0, "is for tables; " + settings.method + " keeps none", ""};
-  }
-  if (settings.start == "world") return {};
-  return Error{"--start", 0, 0,
-               settings.method + " begins its episodes where the world does; only --start world",
-               ""};
-}
-
 // What the method and the words ask of each other.
 Result<void> check(const LearnSettings& settings, const LearnerEntry& entry,
                    const LearnSetup& setup) {
@@ -317,9 +301,12 @@ Result<void> check(const LearnSettings& settings, const LearnerEntry& entry,
                      settings.method + " has none",
                  "optimistic-model"};
   }
-  if (entry.traits.approximates) {
-    const Result<void> none = no_setting_of_tables(settings);
-    if (!none) return none;
+  const Result<void> read = check_readers(settings, entry, setup.exploration);
+  if (!read) return read;
+  if (entry.traits.approximates && settings.start != "world") {
+    return Error{"--start", 0, 0,
+                 settings.method + " begins its episodes where the world does; only --start world",
+                 ""};
   }
   if (settings.tolerance < 0.0 && settings.tolerance != -1.0) {
     return Error{

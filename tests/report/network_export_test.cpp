@@ -35,8 +35,8 @@ NetworkExport learned(const Learned& how) {
   LearnSettings settings;
   settings.method = "dqn";
   settings.deep.hidden = "13,9";
-  settings.deep.learning_starts = 50;
   if (how.say) how.say(settings);
+  if (settings.method == "dqn") settings.deep.learning_starts = 50;
   const auto learner = make_learner(settings, world);
   EXPECT_TRUE(learner) << message(learner.error());
   (*learner)->advance(how.steps, {});

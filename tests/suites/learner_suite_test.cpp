@@ -24,11 +24,15 @@ namespace {
 // Enough to learn small worlds, and quick without optimisation.
 DeepSettings small_networks(std::string_view method) {
   DeepSettings deep;
-  deep.hidden = "16";
-  deep.batch = 8;
-  deep.learning_starts = 100;
-  deep.fits = 2;
+  if (method == "nfq" || method == "dqn" || method == "pqn" || method == "stream-q") {
+    deep.hidden = "16";
+  }
+  if (method == "dqn") {
+    deep.batch = 8;
+    deep.learning_starts = 100;
+  }
   if (method == "nfq") {
+    deep.fits = 2;
     deep.train_every = 150;
     deep.epochs = 5;
   }

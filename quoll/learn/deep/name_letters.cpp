@@ -1,13 +1,27 @@
 #include "quoll/learn/deep/name_letters.hpp"
 
 #include <algorithm>
-#include <array>
+#include <map>
 #include <string>
 #include <unordered_map>
 
+#include "quoll/base/utf8.hpp"
 #include "quoll/env/listed.hpp"
 
 namespace quoll {
+namespace {
+
+std::u32string letters_of(const std::string& name) {
+  std::u32string letters;
+  for (std::string_view rest = name; !rest.empty();) {
+    const CodePoint letter = decode(rest);
+    letters.push_back(letter.value);
+    rest.remove_prefix(letter.length);
+  }
+  return letters;
+}
+
+}  // namespace
 
 Result<std::shared_ptr<const NameLetters>> NameLetters::make(const World& world,
                                                              const Spaces& spaces) {
@@ -21,38 +35,41 @@ Result<std::shared_ptr<const NameLetters>> NameLetters::make(const World& world,
   const Mdp& mdp = **states;
   // Which letters stand at each place of what somebody acts in, then the input of each.
   constexpr std::uint32_t none = ~std::uint32_t{0};
-  std::vector<std::array<std::uint32_t, 256>> inputs;
+  std::vector<std::map<char32_t, std::uint32_t>> inputs;
   std::vector<std::size_t> long_enough;  // names that reach the place
   std::size_t names = 0;
   for (State s = 0; s < mdp.states(); ++s) {
     if (mdp.terminal(s)) continue;
     ++names;
-    const std::string name = mdp.state_name(s);
-    while (inputs.size() < name.size()) inputs.emplace_back().fill(none);
+    const std::u32string name = letters_of(mdp.state_name(s));
+    inputs.resize(std::max(inputs.size(), name.size()));
     long_enough.resize(inputs.size());
     for (std::size_t i = 0; i < name.size(); ++i) {
       ++long_enough[i];
-      inputs[i][static_cast<unsigned char>(name[i])] = 0;
+      inputs[i].emplace(name[i], none);
     }
   }
   auto letters = std::make_shared<NameLetters>();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const auto missing = std::count(inputs[i].begin(), inputs[i].end(), none);
-    const bool tells = missing < 255 || long_enough[i] < names;
-    for (std::uint32_t& input : inputs[i]) {
-      if (input == none) continue;
-      input = tells ? static_cast<std::uint32_t>(letters->size_++) : none;
+    const bool tells = inputs[i].size() > 1 || long_enough[i] < names;
+    for (auto& [letter, input] : inputs[i]) {
+      if (tells) input = static_cast<std::uint32_t>(letters->size_++);
     }
   }
   for (State s = 0; s < mdp.states(); ++s) {
-    const std::string name = mdp.state_name(s);
+    const std::u32string name = letters_of(mdp.state_name(s));
     letters->begin_.push_back(letters->spots_.size());
     for (std::size_t i = 0; i < std::min(name.size(), inputs.size()); ++i) {
-      const std::uint32_t input = inputs[i][static_cast<unsigned char>(name[i])];
-      if (input != none) letters->spots_.push_back(input);
+      const auto found = inputs[i].find(name[i]);
+      if (found == inputs[i].end() || found->second == none) continue;
+      letters->spots_.push_back(found->second);
     }
   }
   letters->begin_.push_back(letters->spots_.size());
+  if (letters->size_ == 0) {
+    return Error{"--inputs", 0, 0, world.name + " has one state to act in: its name tells nothing",
+                 "auto"};
+  }
   letters->name_outputs(mdp);
   return std::shared_ptr<const NameLetters>(std::move(letters));
 }

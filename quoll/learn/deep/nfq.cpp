@@ -175,13 +175,6 @@ std::unique_ptr<Learner> make(const LearnSetup& setup) {
 }
 
 Result<void> check(const LearnSetup& setup) {
-  const DeepSettings& how = setup.deep;
-  if (how.returns != Returns::mean) {
-    return Error{"--returns", 0, 0, "nfq learns means; dqn learns distributions", "mean"};
-  }
-  if (how.noisy) {
-    return Error{"--noisy", 0, 0, "nfq explores by chance; dqn has noisy networks", ""};
-  }
   const Result<void> fits = check_network(setup, habits);
   if (!fits) return fits;
   return check_replay(*DeepSetup::make(setup, habits));

@@ -210,12 +210,6 @@ std::unique_ptr<Learner> make(const LearnSetup& setup) {
 }
 
 Result<void> check(const LearnSetup& setup) {
-  if (setup.deep.returns != Returns::mean) {
-    return Error{"--returns", 0, 0, "pqn learns means; dqn learns distributions", "mean"};
-  }
-  if (setup.deep.noisy) {
-    return Error{"--noisy", 0, 0, "pqn explores by chance; dqn has noisy networks", ""};
-  }
   const Result<void> fits = check_network(setup, habits);
   if (!fits) return fits;
   constexpr std::uint64_t most_numbers = std::uint64_t{1} << 30;

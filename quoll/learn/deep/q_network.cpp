@@ -65,11 +65,11 @@ class QNetwork final : public QFunction {
         gradients_(learned_rows > 0 ? online_.learned.size() : 0),
         optimiser_(deep.optimiser, gradients_.size()),
         traces_(deep.traces ? gradients_.size() : 0),
-        pass_(*network_, layout_ == NetworkLayout::joint ? rows * actions_ : rows, false),
+        pass_(*network_, layout_ == NetworkLayout::joint ? block() : rows, false),
         learning_(*network_, learned_rows, learned_rows > 0),
         chosen_(learned_rows) {
     if (layout_ != NetworkLayout::joint) return;
-    wide_ = nn::Floats(rows * actions_ * network_->inputs());
+    wide_ = nn::Floats(block() * network_->inputs());
     wide_learning_ = nn::Floats(learned_rows * network_->inputs());
   }
 
@@ -89,14 +89,19 @@ class QNetwork final : public QFunction {
   void values(Weights which, const float* inputs, std::size_t rows, float* out) override {
     const float* const weights = side(which).weights();
     if (layout_ == NetworkLayout::joint) {
-      const std::size_t width = network_->inputs();
-      for (std::size_t i = 0; i < rows * actions_; ++i) {
-        widen(inputs + i / actions_ * own_, i % actions_, wide_.data() + i * width);
+      const std::size_t width = network_->inputs(), pairs = rows * actions_;
+      for (std::size_t begin = 0; begin < pairs; begin += block()) {
+        const std::size_t count = std::min(block(), pairs - begin);
+        for (std::size_t i = 0; i < count; ++i) {
+          const std::size_t pair = begin + i;
+          widen(inputs + pair / actions_ * own_, pair % actions_, wide_.data() + i * width);
+        }
+        pass_.forward(weights, wide_.data(), width, count);
+        for (std::size_t i = 0; i < count; ++i, out += atoms_) read(pass_, i, 0, out);
       }
-      pass_.forward(weights, wide_.data(), width, rows * actions_);
-    } else {
-      pass_.forward(weights, inputs, own_, rows);
+      return;
     }
+    pass_.forward(weights, inputs, own_, rows);
     for (std::size_t i = 0; i < rows; ++i) {
       for (std::size_t a = 0; a < actions_; ++a, out += atoms_) read(pass_, i, a, out);
     }
@@ -116,8 +121,7 @@ class QNetwork final : public QFunction {
     batch_ = rows;
     for (std::size_t i = 0; i < rows; ++i, out += atoms_) {
       chosen_[i] = actions[i];
-      // A row of the joint layout is of the action already.
-      read(learning_, i, layout_ == NetworkLayout::joint ? one_row : actions[i], out);
+      read(learning_, i, actions[i], out);
     }
   }
 
@@ -199,8 +203,6 @@ class QNetwork final : public QFunction {
   }
 
  private:
-  static constexpr std::size_t one_row = ~std::size_t{0};
-
   // The online or the target network: what is learned of it, and the weights of its passes.
   struct Side {
     nn::Floats learned;  // the weights, or with noise their means and spreads
@@ -236,6 +238,9 @@ class QNetwork final : public QFunction {
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += one[i];
   }
 
+  // Pairs of the joint layout that go through the network together.
+  std::size_t block() const { return std::min<std::size_t>(rows_ * actions_, 4096); }
+
   // The input and which action it is about.
   void widen(const float* input, std::size_t action, float* out) const {
     std::copy_n(input, own_, out);
@@ -243,10 +248,10 @@ class QNetwork final : public QFunction {
     out[own_ + action] = 1.0F;
   }
 
+  // A row of the joint layout is of the action already.
   void read(const nn::Pass& pass, std::size_t row, std::size_t action, float* out) const {
     if (layout_ == NetworkLayout::joint) {
-      const std::size_t at = action == one_row ? row : row * actions_ + action;
-      std::copy_n(pass.output(0) + at * pass.output_row(0), atoms_, out);
+      std::copy_n(pass.output(0) + row * pass.output_row(0), atoms_, out);
     } else if (layout_ == NetworkLayout::separate) {
       std::copy_n(pass.output(action) + row * pass.output_row(action), atoms_, out);
     } else if (!deep_.settings.duelling) {

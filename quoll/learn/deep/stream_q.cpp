@@ -143,23 +143,6 @@ std::unique_ptr<Learner> make(const LearnSetup& setup) {
 }
 
 Result<void> check(const LearnSetup& setup) {
-  const DeepSettings& how = setup.deep;
-  const auto refuse = [](const char* flag, const char* why, const char* nearest) {
-    return Error{flag, 0, 0, why, nearest};
-  };
-  if (how.returns != Returns::mean) {
-    return refuse("--returns", "stream-q learns means; dqn learns distributions", "mean");
-  }
-  if (how.noisy) {
-    return refuse("--noisy", "stream-q explores by chance; dqn has noisy networks", "");
-  }
-  if (how.walkers > 1) {
-    return refuse("--walkers", "stream-q walks one lane; pqn learns from many", "1");
-  }
-  if (how.optimiser != "auto") {
-    return refuse("--optimiser", "stream-q has a step of its own, bounded by --overshoot-bound",
-                  "auto");
-  }
   return check_network(setup, habits);
 }
 

@@ -128,7 +128,8 @@ TEST(LinearQ, RefusesWhatItCannotDo) {
             "mean 'epsilon-greedy'?");
   settings = linear(0.9, 0.5);
   settings.step_size = "0.1";
-  EXPECT_EQ(refusal(settings, "mountain-car"), "--step-size: is for tables; linear-q keeps none");
+  EXPECT_EQ(refusal(settings, "mountain-car"),
+            "--step-size: is for tables, but --method is linear-q");
   settings = linear(0.9, 0.5);
   settings.start = "uniform";
   EXPECT_EQ(refusal(settings, "adventure"),

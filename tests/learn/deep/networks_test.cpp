@@ -55,6 +55,43 @@ std::vector<float> inputs(std::size_t n) {
   return x;
 }
 
+// More pairs of a row and an action than the joint layout takes at once.
+TEST(QNetwork, ValuesOfManyRowsAreThoseOfEach) {
+  constexpr std::size_t rows = 2000;
+  for (const Variant& variant : layouts()) {
+    const auto q = *make_q_network(setup_of(variant.settings, 2), 1, rows, false);
+    const std::vector<float> x = inputs(rows * 5);
+    std::vector<float> all(rows * 6), one(6);
+    q->values(QFunction::Weights::online, x.data(), rows, all.data());
+    for (const std::size_t i : {0u, 1364u, 1365u, 1366u, 1999u}) {
+      q->values(QFunction::Weights::online, x.data() + i * 5, 1, one.data());
+      for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(all[i * 6 + k], one[k]) << variant.name;
+    }
+  }
+}
+
+TEST(NameLetters, AreCodePointsAtTheirPlaces) {
+  MdpBuilder builder(0.9);
+  builder.move("äx1", "go", "öx2").move("öx2", "go", "END", 1).start("äx1");
+  const World world = to_world("umlauts", *builder.build());
+  const auto letters = *NameLetters::make(world, world.make({})->spaces());
+  EXPECT_EQ(letters->size(), 4u);  // ä, ö; x tells nothing; 1, 2
+  EXPECT_EQ(std::vector(letters->of(0).begin(), letters->of(0).end()),
+            (std::vector<std::uint32_t>{0, 2}));
+  EXPECT_EQ(std::vector(letters->of(1).begin(), letters->of(1).end()),
+            (std::vector<std::uint32_t>{1, 3}));
+}
+
+TEST(NameLetters, OneStateToActInTellsNothing) {
+  MdpBuilder builder(0.9);
+  builder.move("only", "go", "END", 1).start("only");
+  const World world = to_world("one", *builder.build());
+  const auto letters = NameLetters::make(world, world.make({})->spaces());
+  ASSERT_FALSE(letters);
+  EXPECT_EQ(message(letters.error()),
+            "--inputs: one has one state to act in: its name tells nothing; did you mean 'auto'?");
+}
+
 TEST(QNetwork, PredictsWhatItSaysItsValuesAre) {
   for (const Variant& variant : layouts()) {
     for (const std::uint32_t atoms : {1u, 7u}) {
@@ -207,6 +244,7 @@ LearnSettings network(const std::string& method) {
   settings.deep.loss = "half-squared";
   settings.deep.clip_gradient = 0.0;
   settings.deep.learning_rate = "2";
+  if (settings.method != "dqn") return settings;
   settings.deep.batch = 32;
   settings.deep.learning_starts = 100;
   settings.deep.train_every = 1;
@@ -266,7 +304,7 @@ TEST(Dqn, SwitchesThatKeepTheFixedPointReachIt) {
     settings.deep.duelling = (which & 2) != 0;
     settings.deep.prioritised = (which & 4) != 0;
     settings.deep.noisy = (which & 8) != 0;
-    settings.deep.priority_correction = "1";
+    if (settings.deep.prioritised) settings.deep.priority_correction = "1";
     settings.deep.learning_rate = "0.5";
     const auto one = learner(settings, world);
     one->advance(20'000, {});
@@ -307,8 +345,10 @@ TEST(Dqn, DistributionsHaveTheRightMean) {
     LearnSettings settings = network("dqn");
     settings.deep.returns = returns;
     settings.deep.atoms = 21;
-    settings.deep.lowest_return = 0.0;
-    settings.deep.highest_return = 1.0;
+    if (returns == Returns::categorical) {
+      settings.deep.lowest_return = 0.0;
+      settings.deep.highest_return = 1.0;
+    }
     settings.deep.reward_scale = 0.01;
     settings.deep.optimiser = "adam";
     settings.deep.learning_rate = "0.02:0.0005:15000";
@@ -337,16 +377,24 @@ TEST(Dqn, OutputsOfNamesFindTheTable) {
     for (const char* const method : {"dqn", "nfq", "pqn", "stream-q"}) {
       LearnSettings settings = network(method);
       settings.deep.inputs = Scaling::letters;
-      settings.deep.double_q = true;
-      settings.deep.train_every = settings.method == "nfq" ? 1000 : 4;
-      settings.deep.fits = 5;
+      if (settings.method == "dqn") {
+        settings.deep.double_q = true;
+        settings.deep.train_every = 4;
+      } else if (settings.method == "nfq") {
+        settings.deep.train_every = 1000;
+        settings.deep.fits = 5;
+      } else if (settings.method == "pqn") {
+        settings.deep.return_decay = 0.0;
+      } else {
+        settings.deep.optimiser = settings.deep.loss = "auto";
+        settings.deep.clip_gradient = -1.0;
+      }
       settings.deep.hidden = "32";
       settings.deep.activation = "tanh";
       settings.deep.layer_norm = Switch::off;
-      settings.deep.optimiser = settings.method == "stream-q" ? "auto" : "adam";
+      if (settings.method != "stream-q") settings.deep.optimiser = "adam";
       settings.deep.learning_rate = "0.01:0.0001:8000";
       settings.deep.reward_scale = 0.01;
-      settings.deep.return_decay = 0.0;
       const auto one = learner(settings, world);
       one->advance(8000, {});
       EXPECT_LT(error_of(world, *one), 0.05) << world.name << ", " << method;

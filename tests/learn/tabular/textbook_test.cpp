@@ -29,7 +29,7 @@ LearnSettings settings_of(const char* method, const char* explore) {
   LearnSettings settings;
   settings.method = method;
   settings.explore = explore;
-  settings.epsilon = "0.3";
+  if (settings.explore == "epsilon-greedy") settings.epsilon = "0.3";
   settings.step_size = "0.375";
   settings.precision = Precision::twofold;
   settings.episode_steps = 23;

@@ -1,0 +1,17 @@
+#pragma once
+// Which settings of learning are read depends on the method and on other settings.
+
+#include "quoll/act/exploration.hpp"
+#include "quoll/base/error.hpp"
+#include "quoll/learn/learner.hpp"
+#include "quoll/learn/settings.hpp"
+
+namespace quoll {
+
+/// Error: a setting that is not as usual, though nothing that reads it was chosen. Names its flag,
+/// its readers (Setting::readers), and what was chosen instead of them. `--optimiser auto` stands
+/// for a choice of the method's and lets the settings of all optimisers pass.
+Result<void> check_readers(const LearnSettings& settings, const LearnerEntry& entry,
+                           const Exploration& exploration);
+
+}  // namespace quoll
