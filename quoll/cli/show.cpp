@@ -1,7 +1,6 @@
 // quoll show WORLD [graph|map|q|policy|curve]: in the terminal, or as a picture with -o FILE.svg.
 
 #include "quoll/cli/show.hpp"
-#include "quoll/cli/policy_file.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +9,8 @@
 #include "quoll/base/text.hpp"
 #include "quoll/cli/explored.hpp"
 #include "quoll/cli/judged_run.hpp"
+#include "quoll/cli/policy_file.hpp"
+#include "quoll/cli/same_world.hpp"
 #include "quoll/cli/verbs.hpp"
 #include "quoll/report/curve_svg.hpp"
 #include "quoll/report/graph_svg.hpp"
@@ -206,11 +207,8 @@ Exit show(const ShowOptions& options) {
   if (!options.run.empty()) {
     const Result<Run> run = Run::load(run_file(options.run));
     if (!run) return fail(run.error());
-    if (run->source().name != options.world.name) {
-      return fail({"--run", 0, 0,
-                   "the saved run learns " + run->source().name + ", not " + options.world.name,
-                   ""});
-    }
+    const Result<void> same = check_same_world(*run, options.run, *world);
+    if (!same) return fail(same.error());
     const std::string missing = no_table(*run);
     if (!missing.empty() && *kind != "curve") return fail({"show", 0, 0, missing, ""});
     const Exhibit exhibit = learned_exhibit(*run);

@@ -77,8 +77,14 @@ Stop Training::advance(const Limits& limits, const Between& between, const Sink&
   const double before = seconds_;
   bool certified = certifier_ && certifier_->certificate().reached;
   if (limits.mean_return) returns_.look_for(*limits.mean_return, now.steps, processor_seconds_);
+  const auto seconds = [&] {
+    return before + std::chrono::duration<double>(Clock::now() - begun).count();
+  };
+  learner_->ask([&] {
+    return (limits.seconds <= 0.0 || seconds() < limits.seconds) && (!between || between(*this));
+  });
   for (;;) {
-    seconds_ = before + std::chrono::duration<double>(Clock::now() - begun).count();
+    seconds_ = seconds();
     using Halt = LearnProgress::Halt;
     if (certifier_ && now.steps >= certifier_->due()) certified = certifier_->check();
     if (limits.referee && now.steps >= refereed_) {
@@ -95,10 +101,12 @@ Stop Training::advance(const Limits& limits, const Between& between, const Sink&
             : limits.seconds > 0.0 && seconds_ >= limits.seconds     ? Stop::time
             : between && !between(*this)                             ? Stop::interrupted
                                                                      : Stop::none;
-    if (stop_ != Stop::none) return stop_;
+    if (stop_ != Stop::none) break;
     now = advance_by(chunk(limits, now), limits);
     if (curve_.advance(now.steps, now.episodes, now.return_sum)) record(now, sink);
   }
+  learner_->ask({});
+  return stop_;
 }
 
 // What was measured is counted with and without a sink: a run is the same either way.

@@ -3,6 +3,7 @@
 // is advanced by a number of steps. It never prints, times or reads files.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -64,11 +65,15 @@ struct LearnedNetwork;
 class Learner {
  public:
   virtual ~Learner() = default;
-  /// Acts and learns for at most `steps` steps; exactly that many unless it halts. Learners that
-  /// walk several lanes together take whole rounds: up to lanes - 1 steps more. With a log, stops
-  /// when the log is full; the bits are the same with and without. Learners that approximate have
-  /// nothing to write into a log.
+  /// Acts and learns for at most `steps` steps; exactly that many unless it halts or is told to
+  /// stop (ask). Learners that walk several lanes together take whole rounds: up to lanes - 1 steps
+  /// more. With a log, stops when the log is full; the bits are the same with and without. Learners
+  /// that approximate have nothing to write into a log.
   virtual LearnProgress advance(std::uint64_t steps, std::span<Update> log) = 0;
+  /// Whom to ask, every few milliseconds, where work between two steps takes seconds: once the
+  /// answer is no, advance() returns with fewer steps, and its next call goes on with that work.
+  /// The bits are the same. Nobody is asked at first.
+  virtual void ask(const std::function<bool()>& /*keep_going*/) {}
   /// Whoever reads the log looks at what happened only: best_next, target and step_size of an
   /// Update may be left out from now on, where finding them costs time.
   virtual void log_experience_only() {}

@@ -21,7 +21,7 @@ int learn(const quoll::World& world, const char* explore, const char* step_size,
   settings.explore = explore;
   settings.step_size = step_size;
   settings.rule = rule;
-  settings.temperature = "20";
+  if (settings.explore == "softmax") settings.temperature = "20";
   settings.until_stable = false;
   auto learner = quoll::make_learner(settings, world);
   if (!learner) {

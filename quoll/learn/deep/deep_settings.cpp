@@ -3,13 +3,13 @@
 namespace quoll {
 
 void DeepSettings::describe(Describer& d) {
+  describe_network(d);
+  describe_methods(d);
+}
+
+void DeepSettings::describe_network(Describer& d) {
   Describer::Part networks = d.of("networks");
   Describer::Part batched = d.of("nfq, dqn, pqn, distil");
-  Describer::Part replaying = d.of("nfq, dqn");
-  Describer::Part dqn = d.of("dqn");
-  Describer::Part by_priority = d.of("prioritised");
-  Describer::Part categories = d.of("categorical");
-  Describer::Part pqn = d.of("pqn");
   networks.choice("layout", layout, layout_names,
                   "one with an output per action, one network per action, or one that reads the "
                   "action too");
@@ -36,6 +36,14 @@ void DeepSettings::describe(Describer& d) {
           "largest norm of a gradient; 0 = any, -1 = the method's");
   d.of("dqn, distil")("batch", batch, 0, 65536, "transitions of an update; 0 = the method's");
   networks("reward_scale", reward_scale, 1e-9, 1e9, "what rewards are multiplied by to learn");
+}
+
+void DeepSettings::describe_methods(Describer& d) {
+  Describer::Part replaying = d.of("nfq, dqn");
+  Describer::Part dqn = d.of("dqn");
+  Describer::Part by_priority = d.of("prioritised");
+  Describer::Part categories = d.of("categorical");
+  Describer::Part pqn = d.of("pqn");
   replaying("replay", replay, 0, 1e8, "transitions that are remembered; 0 = the method's");
   dqn("learning_starts", learning_starts, "steps before the first update");
   replaying("train_every", train_every, 0, 1e9,
@@ -45,14 +53,14 @@ void DeepSettings::describe(Describer& d) {
       "steps between changes of the target network; 0 = 500");
   dqn("target_share", target_share, 0, 1, "how far it then moves to the learning one; 1 = copy");
   dqn("double_q", double_q, "the learning network chooses, the target network values");
-  networks("duelling", duelling, "a value and advantages in the last layers");
+  d.of("networks")("duelling", duelling, "a value and advantages in the last layers");
   replaying("multi_step", multi_step, 1, 1000, "rewards in a target before the network's value");
   dqn("prioritised", prioritised, "replays what surprised more often");
   by_priority("priority_exponent", priority_exponent, 0, 1, "of the error; 0 = evenly");
   by_priority("priority_correction", priority_correction,
               "exponent of the weights that correct it, or FROM:TO:STEPS");
   dqn("munchausen", munchausen, "soft values, and the log-policy as a part of the reward");
-  dqn("noisy", noisy, "weights with noise whose size is learned explore; no epsilon");
+  dqn("noisy", noisy, "weights with noise whose size is learned explore, not epsilon");
   dqn.choice("returns", returns, returns_names,
              "what is learned: mean, categorical (C51) or quantile (QR-DQN) distributions");
   d.of("categorical, quantile")("atoms", atoms, 0, 1024, "numbers per action; 0 = 51, 32");

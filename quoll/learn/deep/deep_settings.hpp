@@ -81,6 +81,10 @@ struct DeepSettings {
   double overshoot_bound = 2.0;
 
   void describe(Describer& d);
+
+ private:
+  void describe_network(Describer& d);
+  void describe_methods(Describer& d);
 };
 
 }  // namespace quoll

@@ -70,7 +70,10 @@ NetworkLearner::NetworkLearner(const LearnSetup& setup, const DeepSetup& deep,
 LearnProgress NetworkLearner::advance(std::uint64_t steps, std::span<Update>) {
   walkers_.forget_finished();
   const std::uint64_t end = walkers_.progress().steps + steps;
-  while (walkers_.progress().steps < end && halt_ == LearnProgress::Halt::none) round();
+  while (walkers_.progress().steps < end && halt_ == LearnProgress::Halt::none) {
+    round();
+    if (unfinished()) break;
+  }
   return progress();
 }
 

@@ -2,6 +2,7 @@
 // What learners with a network have in common: lanes that are walked, actions chosen by the online
 // network, what they tell of themselves.
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -21,6 +22,7 @@ class NetworkLearner : public Learner {
   NetworkLearner(const LearnSetup& setup, const DeepSetup& deep, std::unique_ptr<QFunction> q);
 
   LearnProgress advance(std::uint64_t steps, std::span<Update> log) override;
+  void ask(const std::function<bool()>& keep_going) override { keep_going_ = keep_going; }
   LearnProgress progress() const override;
   std::span<const FinishedEpisode> finished() const override { return walkers_.finished(); }
   std::vector<Measure> measures() const override {
@@ -32,8 +34,11 @@ class NetworkLearner : public Learner {
   void persist(Archive& archive) override;
 
  protected:
-  /// Steps every lane once and learns from it.
+  /// Steps every lane once and learns from it, or goes on with the work that the last one left.
   virtual void round() = 0;
+  /// Whether it left any, because nobody wanted to wait.
+  virtual bool unfinished() const { return false; }
+  bool keep_going() const { return !keep_going_ || keep_going_(); }
   virtual void persist_own(Archive& archive) = 0;
   /// What values of the network are divided by to be values of the world.
   virtual double value_scale() const { return deep_.settings.reward_scale; }
@@ -79,6 +84,7 @@ class NetworkLearner : public Learner {
  private:
   void count_visits();
 
+  std::function<bool()> keep_going_;
   Exploration exploration_;
   std::vector<Rng> behaviour_;  // per lane
   std::vector<ChoiceDraws> draws_;

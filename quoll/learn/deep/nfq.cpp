@@ -65,9 +65,10 @@ class Nfq final : public NetworkLearner {
 
  private:
   void round() override;
-  void persist_own(Archive& archive) override { archive("replay", replay_); }
-  /// Whether there was anything to fit.
-  bool fit();
+  bool unfinished() const override { return fits_left_ > 0; }
+  void persist_own(Archive& archive) override;
+  void step();
+  void fit();
   void find_targets();
   /// Of all of D but its last part, whose slopes are left. Returns how far Q is from the targets,
   /// of their size.
@@ -86,6 +87,8 @@ class Nfq final : public NetworkLearner {
   const DeepSettings& how_;
   Replay replay_;
   std::vector<float> seen_;
+  // Of the fits that are due.
+  std::uint64_t fits_left_ = 0, epoch_ = 0;
   std::vector<float> targets_;  // of all of D
   // Of one part.
   nn::Floats rows_, values_, predicted_, slopes_, carries_;
@@ -94,6 +97,11 @@ class Nfq final : public NetworkLearner {
 };
 
 void Nfq::round() {
+  if (fits_left_ == 0) step();
+  fit();
+}
+
+void Nfq::step() {
   const std::uint64_t begun = walkers_.progress().steps;
   // 1
   choose_actions(false);
@@ -102,21 +110,27 @@ void Nfq::round() {
   walkers_.go_on();
   // 2
   if (walkers_.progress().steps / how_.train_every == begun / how_.train_every) return;
-  for (std::uint64_t i = 0; i < how_.fits && fit(); ++i) {
-  }
+  fits_left_ = how_.fits;
 }
 
-bool Nfq::fit() {
-  find_targets();
-  // 4
-  q_->forget_steps();
-  for (std::uint64_t i = 0; i < how_.epochs; ++i) {
+// Until all fits that are due are done, or nobody wants to wait for them.
+void Nfq::fit() {
+  while (fits_left_ > 0 && keep_going()) {
+    if (epoch_ == 0) {
+      find_targets();
+      q_->forget_steps();
+    }
+    // 4
     const double error = find_gradient();
-    if (i == 0 && error <= settled) return false;
-    q_->update(slopes_.data(), deep_.learning_rate.at(walkers_.progress().steps));
-    if (halt_ != LearnProgress::Halt::none) return false;
+    const bool rests = epoch_ == 0 && error <= settled;
+    if (!rests) q_->update(slopes_.data(), deep_.learning_rate.at(walkers_.progress().steps));
+    if (rests || halt_ != LearnProgress::Halt::none) {
+      fits_left_ = epoch_ = 0;
+    } else if (++epoch_ == how_.epochs) {
+      epoch_ = 0;
+      --fits_left_;
+    }
   }
-  return true;
 }
 
 // 3
@@ -166,6 +180,21 @@ double Nfq::find_gradient() {
   });
   tell(loss_sum * double{share}, value_sum * double{share});
   return std::sqrt(errors / std::max(squares, 1e-30));
+}
+
+void Nfq::persist_own(Archive& archive) {
+  archive("replay", replay_);
+  archive("fits_left", fits_left_);
+  archive("epoch", epoch_);
+  std::vector<float> targets = epoch_ > 0 ? targets_ : std::vector<float>();
+  archive("targets", targets);
+  targets_ = std::move(targets);
+  const bool fits = fits_left_ <= how_.fits && epoch_ < how_.epochs &&
+                    targets_.size() == (epoch_ > 0 ? replay_.size() : 0) &&
+                    (epoch_ == 0 || fits_left_ > 0);
+  if (fits) return;
+  fits_left_ = epoch_ = 0;
+  archive.fail("the fit that was under way does not go with what is remembered");
 }
 
 std::unique_ptr<Learner> make(const LearnSetup& setup) {

@@ -460,6 +460,28 @@ TEST(Nfq, ACutCountsWhatFollows) {
   EXPECT_LT(error_of(world, *one), one_in_200);
 }
 
+// Fits that nobody wants to wait for are left, saved and gone on with.
+TEST(Nfq, GoesOnWithWhatItLeft) {
+  const World world = adventure();
+  LearnSettings settings = fitted();
+  settings.deep.epochs = 7;
+  const auto whole = learner(settings, world);
+  whole->advance(1200, {});
+  auto parts = learner(settings, world);
+  std::uint64_t asked = 0, left = 0, steps = 0;
+  while (steps < 1200) {
+    parts->ask([&] { return ++asked % 5 != 0; });
+    const std::uint64_t goal = std::min<std::uint64_t>(1200, steps + 300);
+    steps = parts->advance(goal - steps, {}).steps;
+    left += steps < goal;
+    auto next = learner(settings, world);
+    ASSERT_NO_FATAL_FAILURE(resume(*parts, *next));
+    parts = std::move(next);
+  }
+  EXPECT_GT(left, 10u);
+  EXPECT_EQ(saved(*parts), saved(*whole));
+}
+
 // Rewards of three steps and a third as many fits: as good.
 TEST(Nfq, SeveralRewardsComeSooner) {
   double error[2];
