@@ -25,9 +25,15 @@ void sgd(float* x, const float* gradient, std::size_t n, float step) {
   }
 }
 
+// Means nearer to 0 than this are 0. What is learned does not tell them apart, but where gradients
+// have stopped they would halve and halve until they are denormal numbers, which take processors
+// many times as long.
+constexpr float least_mean = 1e-18F, least_square = least_mean * least_mean;
+
 // The running mean `old` of something, with `share` of its new value.
-HWY_INLINE Vector running(Vector old, Vector value, Vector share) {
-  return hn::MulAdd(share, hn::Sub(value, old), old);
+HWY_INLINE Vector running(Vector old, Vector value, Vector share, float least) {
+  const Vector mean = hn::MulAdd(share, hn::Sub(value, old), old);
+  return hn::IfThenElseZero(hn::Ge(hn::Abs(mean), hn::Set(Wide(), least)), mean);
 }
 
 void adam(float* x, const float* gradient, float* mean, float* square, std::size_t n,
@@ -38,8 +44,8 @@ void adam(float* x, const float* gradient, float* mean, float* square, std::size
   const Vector epsilon = hn::Set(d, how.epsilon);
   for (std::size_t i = 0; i < n; i += lanes) {
     const Vector g = hn::LoadU(d, gradient + i);
-    const Vector m = running(hn::LoadU(d, mean + i), g, new1);
-    const Vector v = running(hn::LoadU(d, square + i), hn::Mul(g, g), new2);
+    const Vector m = running(hn::LoadU(d, mean + i), g, new1, least_mean);
+    const Vector v = running(hn::LoadU(d, square + i), hn::Mul(g, g), new2, least_square);
     hn::StoreU(m, d, mean + i);
     hn::StoreU(v, d, square + i);
     const Vector below = hn::MulAdd(hn::Sqrt(v), root_scale, epsilon);
@@ -54,10 +60,10 @@ void rmsprop(float* x, const float* gradient, float* mean, float* square, std::s
   const Vector epsilon = hn::Set(d, how.epsilon);
   for (std::size_t i = 0; i < n; i += lanes) {
     const Vector g = hn::LoadU(d, gradient + i);
-    Vector v = running(hn::LoadU(d, square + i), hn::Mul(g, g), share);
+    Vector v = running(hn::LoadU(d, square + i), hn::Mul(g, g), share, least_square);
     hn::StoreU(v, d, square + i);
     if (how.centred) {
-      const Vector m = running(hn::LoadU(d, mean + i), g, share);
+      const Vector m = running(hn::LoadU(d, mean + i), g, share, least_mean);
       hn::StoreU(m, d, mean + i);
       // Rounding may take the variance below 0.
       v = hn::Max(hn::NegMulAdd(m, m, v), hn::Zero(d));

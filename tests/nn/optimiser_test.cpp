@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -205,6 +206,38 @@ TEST(Optimiser, LeavesPaddingAtZero) {
     EXPECT_LT(it.x[0], 0.0f);
     EXPECT_EQ(std::vector(it.x.begin() + 1, it.x.end()), std::vector(15, 0.0f));
   }
+}
+
+// Where gradients have stopped, running means reach 0, never the slow numbers beside it.
+TEST(Optimiser, MeansEndAtZero) {
+  on_every_target([] {
+    std::vector<float> x(16), g(16, 0.5F), mean(16), square(16);
+    const auto all_well = [&] {
+      for (const std::vector<float>* of : {&mean, &square}) {
+        for (const float one : *of) {
+          if (one != 0.0F && !std::isnormal(one)) return false;
+        }
+      }
+      return true;
+    };
+    for (const bool rms : {false, true}) {
+      bool well = true;
+      for (int t = 0; t < 3000; ++t) {
+        std::fill(g.begin(), g.end(), t == 0 ? 0.5F : 0.0F);
+        if (rms) {
+          arithmetic().rmsprop(x.data(), g.data(), mean.data(), square.data(), 16,
+                               {0.05F, 1e-3F, 0.01F, true});
+        } else {
+          arithmetic().adam(x.data(), g.data(), mean.data(), square.data(), 16,
+                            {0.1F, 0.1F, 1e-3F, 1.0F, 1e-8F});
+        }
+        well = well && all_well();
+      }
+      EXPECT_TRUE(well);
+      EXPECT_EQ(mean, std::vector<float>(16));
+      EXPECT_EQ(square, std::vector<float>(16));
+    }
+  });
 }
 
 TEST(ClipNorm, ScalesToTheLimitAndTellsTheNormBefore) {

@@ -32,7 +32,8 @@ class QFunction {
   virtual void predict(const float* inputs, std::size_t rows, const Action* actions,
                        float* out) = 0;
   /// One step of the optimiser; `slopes` = the gradient of the loss by what predict() gave, rows x
-  /// atoms(). Returns the norm of the gradient before it was clipped.
+  /// atoms(). Returns the norm of the gradient before it was clipped, 0 where
+  /// none is.
   virtual double update(const float* slopes, double learning_rate) = 0;
   /// Keeps that gradient for the next update(), which adds what was kept: a batch in parts.
   virtual void add(const float* slopes) = 0;

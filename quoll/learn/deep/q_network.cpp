@@ -129,7 +129,8 @@ class QNetwork final : public QFunction {
     find_gradients(slopes);
     if (keeps_) add_up(gradients_, kept_);
     keeps_ = false;
-    const double norm = nn::clip_norm(gradients_.span(), deep_.settings.clip_gradient);
+    const double most = deep_.settings.clip_gradient;
+    const double norm = most > 0.0 ? nn::clip_norm(gradients_.span(), most) : 0.0;
     optimiser_.step(online_.learned.span(), gradients_.span(), learning_rate);
     online_.composed = false;
     return norm;
