@@ -48,7 +48,8 @@ signature() { inside && build/inside/quoll/tests/quoll_signature --check tests/g
 repeated='Dqn.SwitchesThatKeep*:Traps.EpsilonGreedyTakes*:Worlds.SteppedFrequencies*:Learners.SoundRulesReach*:Learners.OnPolicyValuesReach*
 :SolverSuite.ThreadsDoNotChangeABit:ExploredWorlds.Blackjack:Explore.SaysWhatCannotBeListed
 :Certifier.IsSeldomWrong*:Certifier.IsTrueAtEveryCheck*:KlInterval.Misses*
-:BoardGames.LearnsTheBestGame*'
+:BoardGames.LearnsTheBestGame*:BoardGames.SmallConnectFour*:Krk.*:Referee.SaysOfThePart*
+:Dqn.DistributionsHave*:Dqn.OutputsOfNames*:Learners.SameSeed*:Learners.WatchingFor*:Floors.*'
 
 # Unit tests, cases and fuzz corpora under AddressSanitizer and UndefinedBehaviorSanitizer. The tests of a
 # program in one process, largest program first: what they share is made once.
