@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include "quoll/nn/elementwise.inl"
+#include "quoll/nn/normalisation.inl"
 #include "quoll/nn/product.inl"
 #include "quoll/nn/sparse.inl"
 #include "quoll/nn/steps.inl"

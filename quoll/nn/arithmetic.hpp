@@ -44,12 +44,18 @@ struct Product {
   std::size_t c_row = 0;
 };
 
-/// The places of a layer that reads mostly zeros: a convolution, or a dense layer as one whose
-/// kernel is as large as what it reads. Rows of weights and of outputs are `row` floats.
+/// Who reads one input of a convolution: `lines` of `across` places, the first of which is `place`
+/// and reads it as its number `input`.
+struct Readers {
+  std::uint32_t place, input;
+  std::uint16_t lines, across;
+};
+/// The places of a layer that reads mostly zeros: those of a convolution, or the one of a dense
+/// layer. Rows of weights and of outputs are `row` floats.
 struct Window {
-  std::uint32_t width, channels;  ///< of what is read
-  std::uint32_t kernel_height, kernel_width, stride;
-  std::uint32_t out_height, out_width;
+  const Readers* readers;     ///< of each input; none: a dense layer
+  std::uint32_t right, down;  ///< by how much an input's number is less a place, a line of them on
+  std::size_t places, out_width;
   std::size_t row;
 };
 /// The numbers of a sample that are not 0.
@@ -97,10 +103,10 @@ struct Arithmetic {
                       float* sums);
   /// x becomes (x - mean) / sqrt(variance + epsilon) of its row, y = x * gain + shift; keeps
   /// 1 / sqrt(...) of each row in `scales`.
-  void (*normalise)(const Rows& shape, float epsilon, float* x, const float* gain,
-                    const float* shift, float* y, float* scales);
+  void (*normalise)(Rows shape, float epsilon, float* x, const float* gain, const float* shift,
+                    float* y, float* scales);
   /// The gradient by y in, by x out (in place); adds up those of gain and shift (both written).
-  void (*normalise_back)(const Rows& shape, const float* normalised, const float* scales,
+  void (*normalise_back)(Rows shape, const float* normalised, const float* scales,
                          const float* gain, float* gradient, float* gain_gradient,
                          float* shift_gradient);
   /// Writes where x is not 0, at most `most` of them: how many, or most + 1 if there are more. n is

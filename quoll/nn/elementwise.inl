@@ -1,6 +1,4 @@
 // The loops over flat arrays of arithmetic.cpp, once for each instruction set.
-//
-// Sums run in 16 columns whatever the width of a vector, and these are added in a fixed order.
 
 #if defined(QUOLL_NN_ELEMENTWISE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef QUOLL_NN_ELEMENTWISE_INL
@@ -11,12 +9,11 @@
 
 #include <hwy/highway.h>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 #include "quoll/nn/arithmetic.hpp"
-#include "quoll/nn/product.inl"
+#include "quoll/nn/sums.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace quoll::nn::HWY_NAMESPACE {
@@ -105,95 +102,6 @@ void column_sums(const float* x, std::size_t rows, std::size_t columns, std::siz
   }
 }
 
-// 16 sums beside each other, whatever the width of a vector.
-struct Sixteen {
-  static constexpr std::size_t count = vector_width / lanes;
-  Vector part[count];
-
-  HWY_INLINE Sixteen() {
-    for (Vector& one : part) one = hn::Zero(Wide());
-  }
-  HWY_INLINE float total() const {
-    float x[vector_width];
-    for (std::size_t v = 0; v < count; ++v) hn::StoreU(part[v], Wide(), x + v * lanes);
-    for (std::size_t half = vector_width / 2; half > 0; half /= 2) {
-      for (std::size_t i = 0; i < half; ++i) x[i] += x[i + half];
-    }
-    return x[0];
-  }
-};
-
-// The numbers of a row from column j on, those of the padding as 0.
-HWY_INLINE Vector real(const Rows& shape, std::size_t j, Vector x) {
-  if (j + lanes <= shape.columns) return x;
-  const std::size_t count = j < shape.columns ? shape.columns - j : 0;
-  return hn::IfThenElseZero(hn::FirstN(Wide(), count), x);
-}
-
-template <class Term>
-HWY_INLINE float row_sum(const Rows& shape, const Term& term) {
-  Sixteen sums;
-  for (std::size_t j = 0; j < shape.columns; j += vector_width) {
-    for (std::size_t v = 0; v < Sixteen::count; ++v) {
-      const std::size_t at = j + v * lanes;
-      sums.part[v] = hn::Add(sums.part[v], real(shape, at, term(at)));
-    }
-  }
-  return sums.total();
-}
-
-void normalise(const Rows& shape, float epsilon, float* x, const float* gain, const float* shift,
-               float* y, float* scales) {
-  const Wide d;
-  const auto count = static_cast<float>(shape.columns);
-  for (std::size_t i = 0; i < shape.rows; ++i, x += shape.row, y += shape.row) {
-    const auto at = [&](std::size_t j) HWY_ATTR { return hn::LoadU(d, x + j); };
-    const Vector mean = hn::Set(d, row_sum(shape, at) / count);
-    const float squares = row_sum(shape, [&](std::size_t j) HWY_ATTR {
-      const Vector off = hn::Sub(hn::LoadU(d, x + j), mean);
-      return hn::Mul(off, off);
-    });
-    scales[i] = 1.0f / std::sqrt(squares / count + epsilon);
-    const Vector scale = hn::Set(d, scales[i]);
-    for (std::size_t j = 0; j < shape.row; j += lanes) {
-      const Vector z = real(shape, j, hn::Mul(hn::Sub(hn::LoadU(d, x + j), mean), scale));
-      hn::StoreU(z, d, x + j);
-      hn::StoreU(hn::MulAdd(z, hn::LoadU(d, gain + j), hn::LoadU(d, shift + j)), d, y + j);
-    }
-  }
-}
-
-// With h = gradient * gain and z the normalised row: (h - mean(h) - z mean(h z)) * scale.
-void normalise_back(const Rows& shape, const float* normalised, const float* scales,
-                    const float* gain, float* gradient, float* gain_gradient,
-                    float* shift_gradient) {
-  const Wide d;
-  for (std::size_t j = 0; j < shape.row; j += lanes) {
-    hn::StoreU(hn::Zero(d), d, gain_gradient + j);
-    hn::StoreU(hn::Zero(d), d, shift_gradient + j);
-  }
-  const auto count = static_cast<float>(shape.columns);
-  for (std::size_t i = 0; i < shape.rows; ++i) {
-    const float* const z = normalised + i * shape.row;
-    float* const g = gradient + i * shape.row;
-    const auto by = [&](std::size_t j)
-                        HWY_ATTR { return hn::Mul(hn::LoadU(d, g + j), hn::LoadU(d, gain + j)); };
-    const Vector mean = hn::Set(d, row_sum(shape, by) / count);
-    const Vector along = hn::Set(d, row_sum(shape, [&](std::size_t j) HWY_ATTR {
-                                      return hn::Mul(by(j), hn::LoadU(d, z + j));
-                                    }) / count);
-    const Vector scale = hn::Set(d, scales[i]);
-    for (std::size_t j = 0; j < shape.row; j += lanes) {
-      const Vector zj = hn::LoadU(d, z + j), gj = hn::LoadU(d, g + j);
-      const Vector h = by(j);
-      hn::StoreU(hn::MulAdd(gj, zj, hn::LoadU(d, gain_gradient + j)), d, gain_gradient + j);
-      hn::StoreU(hn::Add(gj, hn::LoadU(d, shift_gradient + j)), d, shift_gradient + j);
-      const Vector x = hn::Mul(hn::NegMulAdd(zj, along, hn::Sub(h, mean)), scale);
-      hn::StoreU(real(shape, j, x), d, g + j);
-    }
-  }
-}
-
 // Blocks keep the floats' own sums short.
 constexpr std::size_t summed_together = 4096;
 
@@ -201,7 +109,7 @@ double sum_of_squares(const float* x, std::size_t n) {
   const Wide d;
   double sum = 0.0;
   for (std::size_t begin = 0; begin < n; begin += summed_together) {
-    Sixteen sums;
+    Sixteen sums = Sixteen::zero();
     for (std::size_t i = begin; i < n && i < begin + summed_together; i += vector_width) {
       for (std::size_t v = 0; v < Sixteen::count; ++v) {
         const Vector one = hn::LoadU(d, x + i + v * lanes);
@@ -218,7 +126,7 @@ double trace(float* z, const float* gradient, std::size_t n, float decay) {
   const Vector by = hn::Set(d, decay);
   double sum = 0.0;
   for (std::size_t begin = 0; begin < n; begin += summed_together) {
-    Sixteen sums;
+    Sixteen sums = Sixteen::zero();
     for (std::size_t i = begin; i < n && i < begin + summed_together; i += vector_width) {
       for (std::size_t v = 0; v < Sixteen::count; ++v) {
         float* const at = z + i + v * lanes;

@@ -42,17 +42,27 @@ std::size_t turned_row(std::size_t columns) {
 // Inputs of which at most one in this many is not 0 are read one by one.
 constexpr std::size_t sparse_share = 4;
 
-Window window(const Layer& layer) {
-  const std::uint32_t kernel = layer.spec.kernel;
-  const bool dense = !layer.spec.convolution();
-  return {.width = layer.in.width,
-          .channels = layer.in.channels,
-          .kernel_height = dense ? layer.in.height : kernel,
-          .kernel_width = dense ? layer.in.width : kernel,
-          .stride = dense ? 1 : layer.spec.stride,
-          .out_height = dense ? 1 : layer.out.height,
-          .out_width = dense ? 1 : layer.out.width,
-          .row = layer.row};
+// Of each number of what a convolution reads.
+std::vector<Readers> readers_of(const Layer& layer) {
+  const std::uint32_t kernel = layer.spec.kernel, stride = layer.spec.stride;
+  // The first of `places` that reads from x on, and one after the last.
+  const auto first = [&](std::uint32_t x) { return x < kernel ? 0 : (x - kernel) / stride + 1; };
+  const auto end = [&](std::uint32_t x, std::uint32_t places) {
+    return std::max(first(x), std::min(places, x / stride + 1));
+  };
+  std::vector<Readers> readers;
+  for (std::uint32_t y = 0; y < layer.in.height; ++y) {
+    for (std::uint32_t x = 0; x < layer.in.width; ++x) {
+      const std::uint32_t top = first(y), left = first(x);
+      const std::uint32_t corner = (y - top * stride) * kernel + (x - left * stride);
+      for (std::uint32_t channel = 0; channel < layer.in.channels; ++channel) {
+        readers.push_back({top * layer.out.width + left, corner * layer.in.channels + channel,
+                           static_cast<std::uint16_t>(end(y, layer.out.height) - top),
+                           static_cast<std::uint16_t>(end(x, layer.out.width) - left)});
+      }
+    }
+  }
+  return readers;
 }
 
 }  // namespace
@@ -61,7 +71,7 @@ Pass::Pass(const Network& network, std::size_t most, bool back) : network_(netwo
   std::size_t turned = 0, turned_back = 0;
   for (const Layer& layer : network.layers()) {
     const std::size_t rows = padded(most * layer.places);
-    Stage stage{&layer, {}, {}, {}, Floats(rows * layer.row), {}};
+    Stage stage{&layer, {}, {}, {}, Floats(rows * layer.row), {}, {}};
     if (layer.spec.convolution()) stage.patches = Floats(rows * padded(layer.inputs));
     if (layer.normalised()) {
       stage.normalised = Floats(rows * layer.row);
@@ -80,21 +90,31 @@ Pass::Pass(const Network& network, std::size_t most, bool back) : network_(netwo
   if (network.inputs() >= vector_width) {
     spots_.resize(most * network.inputs() / sparse_share);
     spots_begin_.resize(most + 1);
+    for (std::size_t i = 0; i < stages_.size(); ++i) {
+      Stage& stage = stages_[i];
+      if (after(i) == 0 && stage.layer->spec.convolution()) {
+        stage.readers = readers_of(*stage.layer);
+      }
+    }
   }
   turned_ = Floats(turned);
   turned_back_ = Floats(turned_back);
 }
 
-// What the stage reads: the input, or the outputs of the stage before it in its chain.
-Pass::Read Pass::read_by(std::size_t index) const {
+// One more than the stage before this one in its chain; 0: it reads the input.
+std::size_t Pass::after(std::size_t index) const {
   const std::size_t body = network_.body().size();
-  std::size_t before = index;
   if (index >= body) {
     const Layer* const first = &network_.layers()[index];
     for (std::size_t h = 0; h < network_.heads(); ++h) {
-      if (network_.head(h).data() == first) before = body;
+      if (network_.head(h).data() == first) return body;
     }
   }
+  return index;
+}
+
+Pass::Read Pass::read_by(std::size_t index) const {
+  const std::size_t before = after(index);
   if (before == 0) return input_;
   const Stage& stage = stages_[before - 1];
   return {stage.outputs.data(), stage.layer->width()};
@@ -113,6 +133,18 @@ void Pass::look_for_spots() {
   }
   spots_begin_[samples_] = count;
   sparse_ = true;
+}
+
+Window Pass::window(const Stage& stage) {
+  const Layer& layer = *stage.layer;
+  const std::uint32_t right = layer.spec.stride * layer.in.channels;
+  const bool dense = stage.readers.empty();
+  return {.readers = dense ? nullptr : stage.readers.data(),
+          .right = right,
+          .down = right * layer.spec.kernel,
+          .places = layer.places,
+          .out_width = layer.out.width,
+          .row = layer.row};
 }
 
 Spots Pass::spots(std::size_t sample) const {
@@ -165,7 +197,7 @@ void Pass::add_up(Stage& stage, Read from, const float* parameters, float* sums)
   const float* const bias = parameters + layer.bias;
   if (sparse(from)) {
     for (std::size_t i = 0; i < samples_; ++i) {
-      arithmetic().sparse_forward(window(layer), spots(i), weights, bias, relu,
+      arithmetic().sparse_forward(window(stage), spots(i), weights, bias, relu,
                                   sums + i * layer.width());
     }
     return;
@@ -247,7 +279,7 @@ void Pass::backward(Stage& stage, Read from, const float* parameters, float* gra
     float* const by_weights = gradients + layer.weights;
     std::fill_n(by_weights, layer.inputs * layer.row, 0.0f);
     for (std::size_t i = 0; i < samples_; ++i) {
-      arithmetic().sparse_back(window(layer), spots(i), gradient + i * layer.width(), by_weights);
+      arithmetic().sparse_back(window(stage), spots(i), gradient + i * layer.width(), by_weights);
     }
     return;
   }

@@ -62,7 +62,8 @@ class Pass {
     Floats normalised;  // before gain and shift
     Floats scales;
     Floats outputs;
-    Floats gradient;  // by the outputs, then by the sums
+    Floats gradient;               // by the outputs, then by the sums
+    std::vector<Readers> readers;  // of each input of the network, where that is what is read
   };
   struct Read {
     const float* data;
@@ -80,7 +81,9 @@ class Pass {
   void turn(const Stage& reader, Part part, const float* parameters, bool add);
   void gather(const Layer& layer, Read from, float* patches) const;
   void scatter(const Layer& layer, const float* patches, Part part, Stage& before) const;
+  std::size_t after(std::size_t index) const;
   Read read_by(std::size_t index) const;
+  static Window window(const Stage& stage);
   void look_for_spots();
   bool sparse(Read from) const { return sparse_ && from.data == input_.data; }
   Spots spots(std::size_t sample) const;

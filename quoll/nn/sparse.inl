@@ -45,28 +45,15 @@ std::size_t find_spots(const float* x, std::size_t n, std::uint32_t* at, std::si
   return count;
 }
 
-// Calls use(place, input) for every place of the outputs that reads a number, with which of its
+// Calls use(place, input) for every place that reads number `at` of a sample, with which of its
 // inputs that is.
 template <class Use>
 HWY_INLINE void each_reader(const Window& w, std::uint32_t at, const Use& use) {
-  const std::uint32_t line = w.width * w.channels;
-  const std::uint32_t y = at / line, in_line = at % line;
-  const std::uint32_t x = in_line / w.channels, channel = in_line % w.channels;
-  const auto first = [&](std::uint32_t from, std::uint32_t kernel) HWY_ATTR {
-    if (from < kernel) return std::uint32_t{0};
-    return w.stride == 1 ? from - kernel + 1 : (from - kernel) / w.stride + 1;
-  };
-  const auto last = [&](std::uint32_t from, std::uint32_t places) HWY_ATTR {
-    return std::min(places - 1, w.stride == 1 ? from : from / w.stride);
-  };
-  const std::uint32_t left = first(x, w.kernel_width), right = last(x, w.out_width);
-  const std::uint32_t bottom = last(y, w.out_height);
-  for (std::uint32_t a = first(y, w.kernel_height); a <= bottom; ++a) {
-    const std::uint32_t kernel_line = (y - a * w.stride) * w.kernel_width;
-    for (std::uint32_t b = left; b <= right; ++b) {
-      use(std::size_t{a} * w.out_width + b,
-          std::size_t{kernel_line + x - b * w.stride} * w.channels + channel);
-    }
+  if (w.readers == nullptr) return use(0, at);
+  const Readers r = w.readers[at];
+  std::size_t place = r.place, input = r.input;
+  for (std::size_t line = 0; line < r.lines; ++line, place += w.out_width, input -= w.down) {
+    for (std::size_t i = 0; i < r.across; ++i) use(place + i, input - i * w.right);
   }
 }
 
@@ -82,11 +69,12 @@ HWY_INLINE void add_row(Vector factor, const float* from, float* to, std::size_t
 }
 
 template <std::size_t row>
-HWY_INLINE void add_spots(const Window& w, const Spots& spots, const float* weights, float* y) {
+HWY_INLINE void add_spots(const Window w, const Spots spots, const float* weights, float* y) {
   for (std::size_t i = 0; i < spots.count; ++i) {
     const Vector factor = hn::Set(Wide(), spots.x[spots.at[i]]);
     each_reader(w, spots.at[i], [&](std::size_t place, std::size_t input) HWY_ATTR {
-      add_row<row>(factor, weights + input * w.row, y + place * w.row, w.row);
+      const std::size_t wide = row > 0 ? row : w.row;
+      add_row<row>(factor, weights + input * wide, y + place * wide, wide);
     });
   }
 }
@@ -94,7 +82,7 @@ HWY_INLINE void add_spots(const Window& w, const Spots& spots, const float* weig
 void sparse_forward(const Window& w, const Spots& spots, const float* weights, const float* bias,
                     bool relu, float* y) {
   const Wide d;
-  const std::size_t n = std::size_t{w.out_height} * w.out_width * w.row;
+  const std::size_t n = w.places * w.row;
   for (std::size_t at = 0; at < n; at += w.row) {
     for (std::size_t j = 0; j < w.row; j += lanes)
       hn::StoreU(hn::LoadU(d, bias + j), d, y + at + j);
@@ -110,12 +98,13 @@ void sparse_forward(const Window& w, const Spots& spots, const float* weights, c
 }
 
 template <std::size_t row>
-HWY_INLINE void collect_spots(const Window& w, const Spots& spots, const float* by_y,
+HWY_INLINE void collect_spots(const Window w, const Spots spots, const float* by_y,
                               float* by_weights) {
   for (std::size_t i = 0; i < spots.count; ++i) {
     const Vector factor = hn::Set(Wide(), spots.x[spots.at[i]]);
     each_reader(w, spots.at[i], [&](std::size_t place, std::size_t input) HWY_ATTR {
-      add_row<row>(factor, by_y + place * w.row, by_weights + input * w.row, w.row);
+      const std::size_t wide = row > 0 ? row : w.row;
+      add_row<row>(factor, by_y + place * wide, by_weights + input * wide, wide);
     });
   }
 }

@@ -145,17 +145,21 @@ struct Normalised {
 
 TEST(Arithmetic, NormalisesRowsAndPassesGradientsBack) {
   for (const std::size_t columns : {1, 5, 16, 17, 40, 96}) {
-    const Rows shape{3, columns, padded(columns)};
+    // More rows than are looked at together, and some over.
+    const Rows shape{37, columns, padded(columns)};
     const float epsilon = 1e-3f;
-    std::vector<float> x = random_floats(3 * shape.row, columns), by_y = random_floats(x.size(), 2);
+    std::vector<float> x = random_floats(shape.rows * shape.row, columns),
+                       by_y = random_floats(x.size(), 2);
     std::vector<float> gain = random_floats(shape.row, 3), shift = random_floats(shape.row, 4);
     for (std::size_t j = columns; j < shape.row; ++j) {
       gain[j] = shift[j] = 0.0f;
-      for (const std::size_t i : {0, 1, 2}) x[i * shape.row + j] = by_y[i * shape.row + j] = 0.0f;
+      for (std::size_t i = 0; i < shape.rows; ++i) {
+        x[i * shape.row + j] = by_y[i * shape.row + j] = 0.0f;
+      }
     }
     const Normalised naive(shape, double{epsilon}, x, gain, shift, by_y);
     same_bits_where_fused([&] {
-      std::vector<float> z = x, y(x.size()), scales(3), g = by_y, by_gain(shape.row, 9.0f);
+      std::vector<float> z = x, y(x.size()), scales(shape.rows), g = by_y, by_gain(shape.row, 9.0f);
       std::vector<float> by_shift(shape.row, 9.0f);
       arithmetic().normalise(shape, epsilon, z.data(), gain.data(), shift.data(), y.data(),
                              scales.data());
@@ -170,8 +174,8 @@ TEST(Arithmetic, NormalisesRowsAndPassesGradientsBack) {
         }
       }
       for (std::size_t j = 0; j < shape.row; ++j) {
-        EXPECT_NEAR(by_gain[j], naive.by_gain[j], 3e-6);
-        EXPECT_NEAR(by_shift[j], naive.by_shift[j], 1e-6);
+        EXPECT_NEAR(by_gain[j], naive.by_gain[j], 1e-5);
+        EXPECT_NEAR(by_shift[j], naive.by_shift[j], 1e-5);
       }
       y.insert(y.end(), g.begin(), g.end());
       y.insert(y.end(), by_gain.begin(), by_gain.end());

@@ -66,7 +66,7 @@ std::vector<Example> examples() {
       {"strides",
        {{7, 8, 2}, {convolution(4, 3, 2, A::relu), convolution(18, 2, 2, A::tanh)}, {{out}}}},
       {"gaps",
-       {{7, 5, 1}, {convolution(3, 1, 1, A::tanh), convolution(3, 2, 3, A::tanh)}, {{out}}}},
+       {{7, 5, 1}, {convolution(3, 1, 2, A::tanh), convolution(3, 2, 3, A::tanh)}, {{out}}}},
       {"channels normalised",
        {{4, 5, 2},
         {convolution(5, 2, 1, A::relu, N::channels), convolution(17, 2, 1, A::relu, N::channels)},

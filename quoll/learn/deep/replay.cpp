@@ -1,6 +1,7 @@
 #include "quoll/learn/deep/replay.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace quoll {
 
@@ -8,6 +9,15 @@ namespace {
 std::uint64_t words_of(std::uint32_t numbers) {
   return (numbers + 63) / 64;
 }
+
+// The floats of four bits, the lowest first.
+constexpr auto floats_of_bits = [] {
+  std::array<std::array<float, 4>, 16> floats{};
+  for (std::size_t bits = 0; bits < floats.size(); ++bits) {
+    for (std::size_t i = 0; i < 4; ++i) floats[bits][i] = static_cast<float>(bits >> i & 1);
+  }
+  return floats;
+}();
 }  // namespace
 
 Replay::Replay(const Spaces& spaces, std::uint64_t capacity, std::uint32_t lanes)
@@ -71,9 +81,12 @@ State Replay::read(std::uint64_t frame, std::span<float> observation) const {
   if (observation_ == 0) return states_[frame];
   if (bits_) {
     const std::uint64_t* const words = words_.data() + frame * words_of(observation_);
-    for (std::size_t i = 0; i < observation_; ++i) {
-      observation[i] = static_cast<float>((words[i / 64] >> (i % 64)) & 1);
-    }
+    const auto four = [&](std::size_t i) -> const std::array<float, 4>& {
+      return floats_of_bits[words[i / 64] >> (i % 64) & 15];
+    };
+    std::size_t i = 0;
+    for (; i + 4 <= observation_; i += 4) std::copy_n(four(i).begin(), 4, &observation[i]);
+    for (; i < observation_; ++i) observation[i] = four(i / 4 * 4)[i % 4];
   } else {
     std::copy_n(floats_.begin() + static_cast<std::ptrdiff_t>(frame * observation_), observation_,
                 observation.begin());
