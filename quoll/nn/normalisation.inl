@@ -1,6 +1,7 @@
 // Layer normalisation and its gradient, for arithmetic.cpp, once for each instruction set.
 //
-// Rows may be as short as the channels of one place, so 16 of them are looked at together.
+// Rows may be as short as the channels of one place, so 16 of them are looked at together, and rows
+// of 16 numbers are compiled for themselves.
 
 #if defined(QUOLL_NN_NORMALISATION_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef QUOLL_NN_NORMALISATION_INL
@@ -50,8 +51,8 @@ HWY_INLINE void row_means(const Rows shape, std::size_t rows, const Term& term, 
   }
 }
 
-void normalise(Rows shape, float epsilon, float* x, const float* gain, const float* shift, float* y,
-               float* scales) {
+HWY_INLINE void normalise_rows(const Rows shape, float epsilon, float* x, const float* gain,
+                               const float* shift, float* y, float* scales) {
   const Wide d;
   float means[vector_width], roots[vector_width];
   for (std::size_t begin = 0; begin < shape.rows; begin += vector_width) {
@@ -88,9 +89,19 @@ void normalise(Rows shape, float epsilon, float* x, const float* gain, const flo
   }
 }
 
+void normalise(Rows shape, float epsilon, float* x, const float* gain, const float* shift, float* y,
+               float* scales) {
+  if (shape.columns == vector_width) {
+    normalise_rows({shape.rows, vector_width, vector_width}, epsilon, x, gain, shift, y, scales);
+  } else {
+    normalise_rows(shape, epsilon, x, gain, shift, y, scales);
+  }
+}
+
 // With h = gradient * gain and z the normalised row: (h - mean(h) - z mean(h z)) * scale.
-void normalise_back(Rows shape, const float* normalised, const float* scales, const float* gain,
-                    float* gradient, float* gain_gradient, float* shift_gradient) {
+HWY_INLINE void normalise_rows_back(const Rows shape, const float* normalised, const float* scales,
+                                    const float* gain, float* gradient, float* gain_gradient,
+                                    float* shift_gradient) {
   const Wide d;
   for (std::size_t j = 0; j < shape.row; j += lanes) {
     hn::StoreU(hn::Zero(d), d, gain_gradient + j);
@@ -125,6 +136,16 @@ void normalise_back(Rows shape, const float* normalised, const float* scales, co
       hn::StoreU(by_gain, d, gain_gradient + j);
       hn::StoreU(by_shift, d, shift_gradient + j);
     }
+  }
+}
+
+void normalise_back(Rows shape, const float* normalised, const float* scales, const float* gain,
+                    float* gradient, float* gain_gradient, float* shift_gradient) {
+  if (shape.columns == vector_width) {
+    normalise_rows_back({shape.rows, vector_width, vector_width}, normalised, scales, gain,
+                        gradient, gain_gradient, shift_gradient);
+  } else {
+    normalise_rows_back(shape, normalised, scales, gain, gradient, gain_gradient, shift_gradient);
   }
 }
 
