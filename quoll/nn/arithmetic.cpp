@@ -14,6 +14,7 @@
 #include "quoll/nn/product.inl"
 #include "quoll/nn/sparse.inl"
 #include "quoll/nn/steps.inl"
+#include "quoll/nn/transposition.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace quoll::nn::HWY_NAMESPACE {

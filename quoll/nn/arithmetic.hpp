@@ -92,7 +92,8 @@ struct Arithmetic {
   bool fused;               ///< multiplies and adds with one rounding: the class of its bits
 
   void (*product)(const Product&);
-  /// to[j * to_row + i] = from[i * from_row + j]; rows and columns are multiples of 4.
+  /// to[j * to_row + i] = from[i * from_row + j]; rows and columns are multiples of
+  /// vector_width.
   void (*transpose)(const float* from, std::size_t rows, std::size_t columns, std::size_t from_row,
                     float* to, std::size_t to_row);
   void (*activate)(Activation kind, float* values, std::size_t n);
@@ -101,10 +102,10 @@ struct Arithmetic {
   /// sums[j] = sum over i of x[i * row + j], for columns that are a multiple of vector_width.
   void (*column_sums)(const float* x, std::size_t rows, std::size_t columns, std::size_t row,
                       float* sums);
-  /// x becomes (x - mean) / sqrt(variance + epsilon) of its row, y = x * gain + shift; keeps
-  /// 1 / sqrt(...) of each row in `scales`.
+  /// x becomes (x - mean) / sqrt(variance + epsilon) of its row, y = x * gain + shift, then as
+  /// `relu` of Product says; keeps 1 / sqrt(...) of each row in `scales`.
   void (*normalise)(Rows shape, float epsilon, float* x, const float* gain, const float* shift,
-                    float* y, float* scales);
+                    bool relu, float* y, float* scales);
   /// The gradient by y in, by x out (in place); adds up those of gain and shift (both written).
   void (*normalise_back)(Rows shape, const float* normalised, const float* scales,
                          const float* gain, float* gradient, float* gain_gradient,

@@ -52,7 +52,7 @@ HWY_INLINE void row_means(const Rows shape, std::size_t rows, const Term& term, 
 }
 
 HWY_INLINE void normalise_rows(const Rows shape, float epsilon, float* x, const float* gain,
-                               const float* shift, float* y, float* scales) {
+                               const float* shift, bool relu, float* y, float* scales) {
   const Wide d;
   float means[vector_width], roots[vector_width];
   for (std::size_t begin = 0; begin < shape.rows; begin += vector_width) {
@@ -82,19 +82,20 @@ HWY_INLINE void normalise_rows(const Rows shape, float epsilon, float* x, const 
       for (std::size_t j = 0; j < shape.row; j += lanes) {
         const Vector z = real(shape, j, hn::Mul(off(r, j), scale));
         hn::StoreU(z, d, from + r * shape.row + j);
-        hn::StoreU(hn::MulAdd(z, hn::LoadU(d, gain + j), hn::LoadU(d, shift + j)), d,
-                   to + r * shape.row + j);
+        const Vector sum = hn::MulAdd(z, hn::LoadU(d, gain + j), hn::LoadU(d, shift + j));
+        hn::StoreU(relu ? rectified(sum) : sum, d, to + r * shape.row + j);
       }
     }
   }
 }
 
-void normalise(Rows shape, float epsilon, float* x, const float* gain, const float* shift, float* y,
-               float* scales) {
+void normalise(Rows shape, float epsilon, float* x, const float* gain, const float* shift,
+               bool relu, float* y, float* scales) {
   if (shape.columns == vector_width) {
-    normalise_rows({shape.rows, vector_width, vector_width}, epsilon, x, gain, shift, y, scales);
+    normalise_rows({shape.rows, vector_width, vector_width}, epsilon, x, gain, shift, relu, y,
+                   scales);
   } else {
-    normalise_rows(shape, epsilon, x, gain, shift, y, scales);
+    normalise_rows(shape, epsilon, x, gain, shift, relu, y, scales);
   }
 }
 

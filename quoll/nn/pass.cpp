@@ -231,9 +231,10 @@ void Pass::forward(Stage& stage, Read from, const float* parameters) {
     const std::size_t columns = whole ? layer.places * layer.outputs : layer.outputs;
     arithmetic().normalise({whole ? samples_ : rows, columns, layer.normalised_row()},
                            normalisation_epsilon, sums, parameters + layer.gain,
-                           parameters + layer.shift, stage.outputs.data(), stage.scales.data());
+                           parameters + layer.shift, relu, stage.outputs.data(),
+                           stage.scales.data());
   }
-  if (spec.activation == Activation::none || (relu && !layer.normalised())) return;
+  if (relu || spec.activation == Activation::none) return;
   arithmetic().activate(spec.activation, stage.outputs.data(), rows * layer.row);
 }
 

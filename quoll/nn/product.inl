@@ -151,40 +151,6 @@ void product(const Product& p) {
   } while (!at.last);
 }
 
-// In squares of 16 x 16, so that cache lines are read and written whole: rows of `to` a power of
-// two apart would otherwise drive each other out of the cache before they are.
-void transpose(const float* from, std::size_t rows, std::size_t columns, std::size_t from_row,
-               float* to, std::size_t to_row) {
-#if HWY_TARGET == HWY_SCALAR
-  for (std::size_t i = 0; i < rows; ++i) {
-    for (std::size_t j = 0; j < columns; ++j) to[j * to_row + i] = from[i * from_row + j];
-  }
-#else
-  const hn::FixedTag<float, 4> d;
-  const auto square = [&](std::size_t i, std::size_t j) HWY_ATTR {
-    const float* const x = from + i * from_row + j;
-    const auto x0 = hn::LoadU(d, x), x1 = hn::LoadU(d, x + from_row);
-    const auto x2 = hn::LoadU(d, x + 2 * from_row), x3 = hn::LoadU(d, x + 3 * from_row);
-    const auto low02 = hn::InterleaveLower(d, x0, x2), high02 = hn::InterleaveUpper(d, x0, x2);
-    const auto low13 = hn::InterleaveLower(d, x1, x3), high13 = hn::InterleaveUpper(d, x1, x3);
-    float* const y = to + j * to_row + i;
-    hn::StoreU(hn::InterleaveLower(d, low02, low13), d, y);
-    hn::StoreU(hn::InterleaveUpper(d, low02, low13), d, y + to_row);
-    hn::StoreU(hn::InterleaveLower(d, high02, high13), d, y + 2 * to_row);
-    hn::StoreU(hn::InterleaveUpper(d, high02, high13), d, y + 3 * to_row);
-  };
-  for (std::size_t right = 0; right < columns; right += vector_width) {
-    const std::size_t right_end = std::min(columns, right + vector_width);
-    for (std::size_t down = 0; down < rows; down += vector_width) {
-      const std::size_t down_end = std::min(rows, down + vector_width);
-      for (std::size_t j = right; j < right_end; j += 4) {
-        for (std::size_t i = down; i < down_end; i += 4) square(i, j);
-      }
-    }
-  }
-#endif
-}
-
 }  // namespace quoll::nn::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -94,7 +94,7 @@ TEST(Activation, SlopeIsTheDerivativeToldFromTheOutput) {
 }
 
 TEST(Arithmetic, TransposesAndAddsUpColumns) {
-  const std::size_t rows = 20, columns = 48, row = 64;
+  const std::size_t rows = 16, columns = 48, row = 64;
   const std::vector<float> x = random_floats(rows * row, 7);
   on_every_target([&] {
     std::vector<float> turned(columns * 32, -1.0f), sums(columns);
@@ -161,8 +161,13 @@ TEST(Arithmetic, NormalisesRowsAndPassesGradientsBack) {
     same_bits_where_fused([&] {
       std::vector<float> z = x, y(x.size()), scales(shape.rows), g = by_y, by_gain(shape.row, 9.0f);
       std::vector<float> by_shift(shape.row, 9.0f);
-      arithmetic().normalise(shape, epsilon, z.data(), gain.data(), shift.data(), y.data(),
+      arithmetic().normalise(shape, epsilon, z.data(), gain.data(), shift.data(), true, y.data(),
                              scales.data());
+      const std::vector<float> above = y;
+      z = x;
+      arithmetic().normalise(shape, epsilon, z.data(), gain.data(), shift.data(), false, y.data(),
+                             scales.data());
+      for (std::size_t i = 0; i < y.size(); ++i) EXPECT_EQ(above[i], std::max(y[i], 0.0f));
       arithmetic().normalise_back(shape, z.data(), scales.data(), gain.data(), g.data(),
                                   by_gain.data(), by_shift.data());
       for (std::size_t i = 0; i < x.size(); ++i) {

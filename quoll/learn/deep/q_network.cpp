@@ -102,6 +102,15 @@ class QNetwork final : public QFunction {
       return;
     }
     pass_.forward(weights, inputs, own_, rows);
+    if (layout_ == NetworkLayout::shared && !deep_.settings.duelling) {
+      // Side by side already.
+      const float* from = pass_.output(0);
+      const std::size_t row = pass_.output_row(0), width = actions_ * atoms_;
+      for (std::size_t i = 0; i < rows; ++i, from += row, out += width) {
+        for (std::size_t j = 0; j < width; ++j) out[j] = from[j];
+      }
+      return;
+    }
     for (std::size_t i = 0; i < rows; ++i) {
       for (std::size_t a = 0; a < actions_; ++a, out += atoms_) read(pass_, i, a, out);
     }
