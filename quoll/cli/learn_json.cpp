@@ -52,7 +52,7 @@ void write_evaluation(JsonWriter& json, const Run& run, const RunResult& result)
   }
   const Statistics& s = result.statistics;
   json.key("evaluation").begin_object();
-  json.member("episodes", run.settings().evaluation_episodes);
+  json.member("episodes", run.settings().evaluation_episodes).member("seeds", result.counted);
   json.member("mean", s.mean).member("median", s.median).member("iqm", s.iqm);
   json.member("minimum", s.minimum);
   json.member("lower", s.lower).member("upper", s.upper);

@@ -166,7 +166,10 @@ std::string seeds_rows(const Run& run, const RunResult& result, const LearnStory
   if (model) columns.insert(columns.end(), {{"optimal"}, {"regret", Align::point}});
   const bool training = run.entry().traits.approximates;
   if (training) columns.push_back({"in training", Align::point});
-  columns.insert(columns.end(), {{"mean return", Align::point}, {"ended", Align::right}});
+  const bool played = run.settings().evaluation_episodes > 0;
+  if (played) {
+    columns.insert(columns.end(), {{"mean return", Align::point}, {"ended", Align::right}});
+  }
   TextTable table(std::move(columns));
   for (const SeedResult& seed : result.seeds) {
     std::vector<std::string> row{std::to_string(seed.seed), grouped(seed.steps),
@@ -181,8 +184,10 @@ std::string seeds_rows(const Run& run, const RunResult& result, const LearnStory
       row.push_back(seed.optimality ? number_text(seed.optimality->regret) : "");
     }
     if (training) row.push_back(seed.training_return ? number_text(*seed.training_return) : "-");
-    row.push_back(number_text(seed.played.mean));
-    row.push_back(fmt::format("{:.0f} %", 100 * seed.played.ended));
+    if (played) {
+      row.push_back(number_text(seed.played.mean));
+      row.push_back(fmt::format("{:.0f} %", 100 * seed.played.ended));
+    }
     table.row(std::move(row));
   }
   return table.text();
@@ -203,9 +208,13 @@ std::string reached_line(const RunResult& result) {
                             statistics(seconds).median);
 }
 
-std::string seeds_table(const Run& run, const RunResult& result, const LearnStory& story) {
+// What the greedy policies of the seeds earned.
+std::string statistics_lines(const Run& run, const RunResult& result) {
   const Statistics& s = result.statistics;
-  std::string text = seeds_rows(run, result, story);
+  std::string text;
+  if (result.counted < result.seeds.size()) {
+    text += fmt::format("of the {} not interrupted: ", counted(result.counted, "seed"));
+  }
   text += fmt::format("mean {}, median {}, interquartile mean {}, smallest {}", number_text(s.mean),
                       number_text(s.median), number_text(s.iqm), number_text(s.minimum));
   if (s.lower) {
@@ -214,10 +223,15 @@ std::string seeds_table(const Run& run, const RunResult& result, const LearnStor
   }
   text += "\n";
   if (result.solved) {
-    text +=
-        fmt::format("solved (mean return of at least {}): {} of {} seeds\n",
-                    number_text(*run.world().traits.solved), *result.solved, result.seeds.size());
+    text += fmt::format("solved (mean return of at least {}): {} of {} seeds\n",
+                        number_text(*run.world().traits.solved), *result.solved, result.counted);
   }
+  return text;
+}
+
+std::string seeds_table(const Run& run, const RunResult& result, const LearnStory& story) {
+  std::string text = seeds_rows(run, result, story);
+  if (run.settings().evaluation_episodes > 0) text += statistics_lines(run, result);
   return story.until_return ? text + reached_line(result) : text;
 }
 

@@ -260,7 +260,6 @@ RunResult Run::result(bool solve_too) const {
     result.no_exact = "the model of " + world_->name + " is not known";
   }
   const std::vector<State> from = mdp ? starts() : std::vector<State>();
-  std::vector<double> means;
   result.seeds.resize(trainings_.size());
   parallel_for(trainings_.size(), settings_.threads, [&](std::size_t i) {
     const Training& training = trainings_[i];
@@ -291,10 +290,14 @@ RunResult Run::result(bool solve_too) const {
     seed.played = play(*world_, *policy, settings_.evaluation_episodes, seed.seed, discount(),
                        usual_cut(*world_));
   });
+  const auto stopped = [](const SeedResult& seed) { return seed.stop == Stop::interrupted; };
+  const bool all = std::all_of(result.seeds.begin(), result.seeds.end(), stopped);
+  std::vector<double> means;
   for (const SeedResult& seed : result.seeds) {
-    means.push_back(seed.played.mean);
+    if (all || !stopped(seed)) means.push_back(seed.played.mean);
     result.seconds += seed.seconds;
   }
+  result.counted = means.size();
   result.statistics = statistics(means);
   if (const auto& mark = world_->traits.solved; mark && settings_.evaluation_episodes > 0) {
     result.solved = std::count_if(means.begin(), means.end(), [&](double m) { return m >= *mark; });

@@ -55,9 +55,12 @@ struct RunResult {
   std::optional<Solution> exact;
   std::string no_exact;  ///< why there is no exact answer
   std::vector<SeedResult> seeds;
-  Statistics statistics;                ///< over the seeds' mean returns
-  std::optional<std::uint64_t> solved;  ///< seeds at or above the world's own mark, if it has one
-  double seconds = 0.0;                 ///< learning, all seeds together
+  /// Over the mean returns of `counted` seeds: where somebody stopped only some, of the others.
+  Statistics statistics;
+  std::uint64_t counted = 0;
+  std::optional<std::uint64_t>
+      solved;            ///< of these at or above the world's own mark, if it has one
+  double seconds = 0.0;  ///< learning, all seeds together
 };
 
 class Run {

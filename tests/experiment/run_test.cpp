@@ -100,6 +100,22 @@ TEST(Runs, CanBeInterruptedAndTold) {
   EXPECT_EQ(run.trainings()[0].learner().progress().steps, seen);
 }
 
+TEST(Runs, MeansLeaveOutSeedsThatWereInterrupted) {
+  RunSettings settings = limited(3000);
+  settings.seeds = 3;
+  settings.threads = 1;
+  OneRun run = started(adventure(), settings);
+  // Seed 1 ends, seed 2 is stopped on its way, seed 3 never begins.
+  run.advance(settings, 0.0, [](const RunProgress& now) { return now.steps < 4000; }, {});
+  const RunResult result = run.result(false);
+  EXPECT_EQ(result.seeds[0].stop, Stop::steps);
+  EXPECT_EQ(result.seeds[1].stop, Stop::interrupted);
+  EXPECT_EQ(result.seeds[2].steps, 0u);
+  EXPECT_EQ(result.counted, 1u);
+  EXPECT_EQ(result.statistics.mean, result.seeds[0].played.mean);
+  EXPECT_EQ(result.statistics.minimum, result.seeds[0].played.mean);
+}
+
 TEST(Runs, RecordsEachBinOnce) {
   OneRun run = started(adventure(), limited(64 * 10));
   std::uint64_t last = 0, returns = 0;
