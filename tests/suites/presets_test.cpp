@@ -23,12 +23,13 @@ Values with(Values values, const Values& more) {
 }
 
 const Values all = {{"discount", "0.99"}, {"inputs", "raw"}, {"explore", "epsilon-greedy"}};
-const Values zoo = with(all, {{"method", "dqn"},
-                              {"hidden", "256,256"},
-                              {"initial_weights", "uniform"},
-                              {"optimiser", "adam"},
-                              {"loss", "huber"},
-                              {"clip_gradient", "10"}});
+// What none of them has, but Quoll's own settings.
+const Values plain_dqn = with(all, {{"method", "dqn"}, {"layer_norm", "off"}, {"multi_step", "1"}});
+const Values zoo = with(plain_dqn, {{"hidden", "256,256"},
+                                    {"initial_weights", "uniform"},
+                                    {"optimiser", "adam"},
+                                    {"loss", "huber"},
+                                    {"clip_gradient", "10"}});
 const Values cleanrl = with(all, {{"hidden", "120,84"}, {"loss", "squared"}});
 const Values purejaxql = with(all, {{"method", "pqn"},
                                     {"layer_norm", "on"},
@@ -39,6 +40,7 @@ const Values purejaxql = with(all, {{"method", "pqn"},
 
 // Dopamine's agent with all six parts of Rainbow.
 const Values rainbow = {{"method", "dqn"},
+                        {"layer_norm", "off"},
                         {"discount", "0.99"},
                         {"initial_weights", "uniform"},
                         {"optimiser", "adam"},
@@ -59,6 +61,8 @@ const Values rainbow = {{"method", "dqn"},
 std::map<std::string, Values> published() {
   return {
       {"cleanrl-cartpole-dqn", with(cleanrl, {{"method", "dqn"},
+                                              {"layer_norm", "off"},
+                                              {"multi_step", "1"},
                                               {"initial_weights", "uniform"},
                                               {"optimiser", "adam"},
                                               {"learning_rate", "0.00025"},
@@ -146,23 +150,22 @@ std::map<std::string, Values> published() {
                                           {"target_every", "100"},
                                           {"lowest_return", "-200"},
                                           {"highest_return", "200"}})},
-      {"minatar-paper", with(all, {{"method", "dqn"},
-                                   {"filters", "16x3"},
-                                   {"hidden", "128"},
-                                   {"initial_weights", "uniform"},
-                                   {"optimiser", "centred-rmsprop"},
-                                   {"learning_rate", "0.00025"},
-                                   {"gradient_decay", "0.95"},
-                                   {"optimiser_epsilon", "0.01"},
-                                   {"loss", "huber"},
-                                   {"clip_gradient", "0"},
-                                   {"batch", "32"},
-                                   {"replay", "100000"},
-                                   {"learning_starts", "5000"},
-                                   {"train_every", "1"},
-                                   {"gradient_steps", "1"},
-                                   {"target_every", "1000"},
-                                   {"epsilon", "1:0.1:100000"}})},
+      {"minatar-paper", with(plain_dqn, {{"filters", "16x3"},
+                                         {"hidden", "128"},
+                                         {"initial_weights", "uniform"},
+                                         {"optimiser", "centred-rmsprop"},
+                                         {"learning_rate", "0.00025"},
+                                         {"gradient_decay", "0.95"},
+                                         {"optimiser_epsilon", "0.01"},
+                                         {"loss", "huber"},
+                                         {"clip_gradient", "0"},
+                                         {"batch", "32"},
+                                         {"replay", "100000"},
+                                         {"learning_starts", "5000"},
+                                         {"train_every", "1"},
+                                         {"gradient_steps", "1"},
+                                         {"target_every", "1000"},
+                                         {"epsilon", "1:0.1:100000"}})},
   };
 }
 

@@ -54,7 +54,8 @@ void DeepSettings::describe_methods(Describer& d) {
   dqn("target_share", target_share, 0, 1, "how far it then moves to the learning one; 1 = copy");
   dqn("double_q", double_q, "the learning network chooses, the target network values");
   d.of("networks")("duelling", duelling, "a value and advantages in the last layers");
-  replaying("multi_step", multi_step, 1, 1000, "rewards in a target before the network's value");
+  replaying("multi_step", multi_step, 0, 1000,
+            "rewards in a target before the network's value; 0 = the method's");
   dqn("prioritised", prioritised, "replays what surprised more often");
   by_priority("priority_exponent", priority_exponent, 0, 1, "of the error; 0 = evenly");
   by_priority("priority_correction", priority_correction,

@@ -57,7 +57,7 @@ struct DeepSettings {
   double target_share = 1.0;
   bool double_q = false;
   bool duelling = false;
-  std::uint64_t multi_step = 1;
+  std::uint64_t multi_step = 0;
   bool prioritised = false;
   double priority_exponent = 0.6;
   std::string priority_correction = "0.4";

@@ -115,7 +115,7 @@ Result<std::vector<nn::LayerSpec>> layers(const DeepSettings& settings, const Sp
   return list;
 }
 
-void fill_in(DeepSettings& settings, const DeepHabits& habits) {
+void fill_in(DeepSettings& settings, const DeepHabits& habits, bool observed) {
   const auto usual = [](std::uint64_t& value, std::uint64_t habit) {
     if (value == 0) value = habit;
   };
@@ -128,6 +128,7 @@ void fill_in(DeepSettings& settings, const DeepHabits& habits) {
   usual(settings.minibatches, habits.minibatches);
   usual(settings.epochs, habits.epochs);
   usual(settings.fits, habits.fits);
+  usual(settings.multi_step, observed ? habits.multi_step : 1);
   if (settings.return_decay < 0.0) settings.return_decay = habits.return_decay;
   if (settings.clip_gradient < 0.0) settings.clip_gradient = habits.clip_gradient;
 }
@@ -214,8 +215,8 @@ Result<void> find_atoms(DeepSetup& deep) {
 Result<DeepSetup> DeepSetup::make(const LearnSetup& setup, const DeepHabits& habits) {
   DeepSetup deep;
   const DeepSettings& settings = deep.settings = setup.deep;
-  fill_in(deep.settings, habits);
   if (const auto found = find_input(deep, setup, habits); !found) return found.error();
+  fill_in(deep.settings, habits, deep.spaces.observation > 0);
   auto hidden = layers(settings, deep.spaces, habits);
   if (!hidden) return hidden.error();
   deep.hidden = std::move(*hidden);

@@ -29,6 +29,9 @@ struct DeepHabits {
   // What 0 stands for.
   std::uint64_t batch = 64, replay = 100'000, train_every = 4, gradient_steps = 1;
   std::uint64_t target_every = 500, rollout = 32, minibatches = 4, epochs = 4, fits = 1;
+  /// Where something is observed. Where states are only numbered it is 1: what was explored after
+  /// the first of several rewards moves Q away from Q*.
+  std::uint64_t multi_step = 1;
   double return_decay = 0.65;  ///< what -1 stands for
   /// Reads which state it is where states are numbered, whatever else is observed there.
   bool by_state = false;

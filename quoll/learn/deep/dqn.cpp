@@ -40,13 +40,14 @@ namespace {
 
 constexpr DeepHabits habits{.hidden = "128,128",
                             .filters = "16x3",
-                            .layer_norm = false,
+                            .layer_norm = true,
                             .initial = nn::Initial::uniform,
                             .optimiser = nn::OptimiserKind::adam,
-                            .learning_rate = "0.0005",
+                            .learning_rate = "0.0005:0.00001:250000",
                             .loss = nn::LossKind::huber,
                             .clip_gradient = 10.0,
-                            .walkers = 1};
+                            .walkers = 1,
+                            .multi_step = 3};
 
 class Dqn final : public NetworkLearner {
  public:
