@@ -114,6 +114,8 @@ struct LearnerTraits {
   bool taught = false;
   /// What --epsilon auto stands for.
   std::string_view epsilon = "0.1";
+  /// What --optimiser auto stands for; empty = it has none.
+  std::string_view optimiser = {};
   /// Hopes: begins with the most that any policy can earn unless --initial-value says else, and
   /// acts on that: --explore has no say.
   bool optimistic = false;

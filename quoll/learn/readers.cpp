@@ -25,8 +25,11 @@ std::vector<Choices> choices_of(const LearnSettings& settings, const LearnerEntr
                                 const Exploration& exploration) {
   const DeepSettings& deep = settings.deep;
   Choices optimiser{"--optimiser", nn::optimiser_names, {deep.optimiser}};
-  if (deep.optimiser == "auto") {
-    optimiser.chosen.assign(optimiser.words.begin(), optimiser.words.end());
+  if (entry.traits.optimiser.empty()) {
+    optimiser.flag = "--method";
+    optimiser.chosen = {entry.method};
+  } else if (deep.optimiser == "auto") {
+    optimiser.chosen = {entry.traits.optimiser};
   }
   const std::string_view keeps = entry.traits.networks       ? "networks"
                                  : entry.traits.approximates ? "linear"

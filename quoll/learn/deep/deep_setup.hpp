@@ -41,6 +41,10 @@ struct DeepHabits {
   bool plain_norm = false;
   bool running = false;  ///< observed numbers by their mean and deviation so far
   bool traces = false;   ///< of the gradients
+
+  constexpr std::string_view optimiser_name() const {
+    return nn::optimiser_names[static_cast<std::size_t>(optimiser)];
+  }
 };
 
 /// Everything a network learner needs besides LearnSetup; no "auto" is left.

@@ -287,7 +287,10 @@ const LearnerEntry distil{.method = "distil",
                           .sound = true,
                           .make = make,
                           .replay = nullptr,
-                          .traits = {.approximates = true, .networks = true, .taught = true},
+                          .traits = {.approximates = true,
+                                     .networks = true,
+                                     .taught = true,
+                                     .optimiser = habits.optimiser_name()},
                           .check = check,
                           .formula = "a step down the gradient of L(Q(s,a), T(s,a)), T the table"};
 

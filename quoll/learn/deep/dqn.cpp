@@ -269,7 +269,10 @@ const LearnerEntry dqn{
     .sound = true,
     .make = make,
     .replay = nullptr,
-    .traits = {.approximates = true, .networks = true, .epsilon = "1:0.05:10000"},
+    .traits = {.approximates = true,
+               .networks = true,
+               .epsilon = "1:0.05:10000",
+               .optimiser = habits.optimiser_name()},
     .check = check,
     .formula = "a step down the gradient of L(Q(s,a), r + discount * max Q'(s',.)), Q' the copy"};
 

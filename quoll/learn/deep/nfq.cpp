@@ -218,7 +218,10 @@ const LearnerEntry nfq{
     .sound = true,
     .make = make,
     .replay = nullptr,
-    .traits = {.approximates = true, .networks = true, .epsilon = "1:0.05:5000"},
+    .traits = {.approximates = true,
+               .networks = true,
+               .epsilon = "1:0.05:5000",
+               .optimiser = habits.optimiser_name()},
     .check = check,
     .formula =
         "again and again: y := r + discount * max Q(s',.) of all that was seen, then Q := the "

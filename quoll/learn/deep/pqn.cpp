@@ -233,7 +233,10 @@ const LearnerEntry pqn{
     .sound = true,
     .make = make,
     .replay = nullptr,
-    .traits = {.approximates = true, .networks = true, .epsilon = "1:0.05:250000"},
+    .traits = {.approximates = true,
+               .networks = true,
+               .epsilon = "1:0.05:250000",
+               .optimiser = habits.optimiser_name()},
     .check = check,
     .formula =
         "a step down the gradient of L(Q(s,a), G), G = r + discount * (lambda * G' + (1 - "
