@@ -82,7 +82,12 @@ void write_runs(JsonWriter& json, const RunResult& result) {
       json.value(seed.optimality->regret);
     else
       json.null();
-    json.member("mean", seed.played.mean).member("training_return", seed.training_return);
+    if (seed.played.episodes > 0) {
+      json.member("mean", seed.played.mean);
+    } else {
+      json.null_member("mean");
+    }
+    json.member("training_return", seed.training_return);
     json.member("processor_seconds", seed.processor_seconds);
     write_reached(json, seed.reached);
     json.end_object();

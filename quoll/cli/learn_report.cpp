@@ -184,9 +184,11 @@ std::string seeds_rows(const Run& run, const RunResult& result, const LearnStory
       row.push_back(seed.optimality ? number_text(seed.optimality->regret) : "");
     }
     if (training) row.push_back(seed.training_return ? number_text(*seed.training_return) : "-");
-    if (played) {
+    if (seed.played.episodes > 0) {
       row.push_back(number_text(seed.played.mean));
       row.push_back(fmt::format("{:.0f} %", 100 * seed.played.ended));
+    } else if (played) {
+      row.insert(row.end(), 2, "-");
     }
     table.row(std::move(row));
   }
@@ -213,7 +215,10 @@ std::string statistics_lines(const Run& run, const RunResult& result) {
   const Statistics& s = result.statistics;
   std::string text;
   if (result.counted < result.seeds.size()) {
-    text += fmt::format("of the {} not interrupted: ", counted(result.counted, "seed"));
+    const bool ended = std::any_of(result.seeds.begin(), result.seeds.end(),
+                                   [](const auto& seed) { return seed.stop != Stop::interrupted; });
+    text += fmt::format("of the {} {}: ", counted(result.counted, "seed"),
+                        ended ? "not interrupted" : "begun");
   }
   text += fmt::format("mean {}, median {}, interquartile mean {}, smallest {}", number_text(s.mean),
                       number_text(s.median), number_text(s.iqm), number_text(s.minimum));
@@ -231,7 +236,8 @@ std::string statistics_lines(const Run& run, const RunResult& result) {
 
 std::string seeds_table(const Run& run, const RunResult& result, const LearnStory& story) {
   std::string text = seeds_rows(run, result, story);
-  if (run.settings().evaluation_episodes > 0) text += statistics_lines(run, result);
+  if (run.settings().evaluation_episodes > 0 && result.counted > 0)
+    text += statistics_lines(run, result);
   return story.until_return ? text + reached_line(result) : text;
 }
 

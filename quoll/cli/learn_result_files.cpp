@@ -23,12 +23,15 @@ std::string seeds_csv(const RunResult& result) {
       reached = std::to_string(seed.reached->steps) + "," + std::to_string(seed.reached->episodes) +
                 "," + shortest(seed.reached->processor_seconds);
     }
+    std::string played = ",,,";
+    if (seed.played.episodes > 0) {
+      played = shortest(seed.played.mean) + "," + shortest(seed.played.mean_discounted) + "," +
+               shortest(seed.played.mean_steps) + "," + shortest(seed.played.ended);
+    }
     text += std::to_string(seed.seed) + "," + std::to_string(seed.steps) + "," +
             std::to_string(seed.episodes) + "," + std::string(stop_name(seed.stop)) + "," +
             shortest(seed.seconds) + "," + shortest(seed.processor_seconds) + "," + reached + "," +
-            (seed.training_return ? shortest(*seed.training_return) : "") + "," +
-            shortest(seed.played.mean) + "," + shortest(seed.played.mean_discounted) + "," +
-            shortest(seed.played.mean_steps) + "," + shortest(seed.played.ended) + "\n";
+            (seed.training_return ? shortest(*seed.training_return) : "") + "," + played + "\n";
   }
   return text;
 }

@@ -287,6 +287,8 @@ RunResult Run::result(bool solve_too) const {
       seed.optimality = judge(*mdp, *result.exact, seed.policy, from, discount());
       count_optimal(*mdp, *result.exact, from, seed);
     }
+    // Of a seed that never began there is nothing to tell.
+    if (seed.stop == Stop::interrupted && seed.steps == 0) return;
     seed.played = play(*world_, *policy, settings_.evaluation_episodes, seed.seed, discount(),
                        usual_cut(*world_));
   });
@@ -294,11 +296,12 @@ RunResult Run::result(bool solve_too) const {
   const bool all = std::all_of(result.seeds.begin(), result.seeds.end(), stopped);
   std::vector<double> means;
   for (const SeedResult& seed : result.seeds) {
-    if (all || !stopped(seed)) means.push_back(seed.played.mean);
+    const bool begun = !stopped(seed) || seed.steps > 0;
+    if (begun && (all || !stopped(seed))) means.push_back(seed.played.mean);
     result.seconds += seed.seconds;
   }
   result.counted = means.size();
-  result.statistics = statistics(means);
+  if (!means.empty()) result.statistics = statistics(means);
   if (const auto& mark = world_->traits.solved; mark && settings_.evaluation_episodes > 0) {
     result.solved = std::count_if(means.begin(), means.end(), [&](double m) { return m >= *mark; });
   }

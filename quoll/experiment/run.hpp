@@ -55,7 +55,8 @@ struct RunResult {
   std::optional<Solution> exact;
   std::string no_exact;  ///< why there is no exact answer
   std::vector<SeedResult> seeds;
-  /// Over the mean returns of `counted` seeds: where somebody stopped only some, of the others.
+  /// Over the mean returns of `counted` seeds: where somebody stopped only some, of the others;
+  /// where all, of those that had begun.
   Statistics statistics;
   std::uint64_t counted = 0;
   std::optional<std::uint64_t>

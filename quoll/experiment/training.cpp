@@ -44,6 +44,7 @@ constexpr std::uint64_t largest_approximated = 1024;
 
 // An episode takes at least one step, so as many steps as episodes are left cannot overshoot.
 std::uint64_t Training::chunk(const Limits& limits, const LearnProgress& now) const {
+  if (now.unfinished) return 0;
   std::uint64_t steps = std::min<std::uint64_t>(curve_.boundary() - now.steps, 1 << 16);
   if (approximates_) steps = std::min(steps, largest_approximated);
   if (certifier_) steps = std::min({steps, certifier_->due() - now.steps, largest_log});
@@ -91,16 +92,18 @@ Stop Training::advance(const Limits& limits, const Between& between, const Sink&
       refereed_ = now.steps + 1 + now.steps / 20;
       certified = limits.referee(*learner_);
     }
-    stop_ = certified                                                ? Stop::certified
-            : limits.mean_return && returns_.reached()               ? Stop::reached
-            : now.halt == Halt::stable                               ? Stop::stable
-            : now.halt == Halt::diverged                             ? Stop::diverged
-            : limits.steps > 0 && now.steps >= limits.steps          ? Stop::steps
-            : limits.episodes > 0 && now.episodes >= limits.episodes ? Stop::episodes
-            : limits.budget > 0 && now.steps >= limits.budget        ? Stop::budget
-            : limits.seconds > 0.0 && seconds_ >= limits.seconds     ? Stop::time
-            : between && !between(*this)                             ? Stop::interrupted
-                                                                     : Stop::none;
+    // A goal is reached, and a number of steps taken, when what belongs to them is done.
+    const bool done = !now.unfinished;
+    stop_ = certified                                                        ? Stop::certified
+            : done && limits.mean_return && returns_.reached()               ? Stop::reached
+            : now.halt == Halt::stable                                       ? Stop::stable
+            : now.halt == Halt::diverged                                     ? Stop::diverged
+            : done && limits.steps > 0 && now.steps >= limits.steps          ? Stop::steps
+            : done && limits.episodes > 0 && now.episodes >= limits.episodes ? Stop::episodes
+            : done && limits.budget > 0 && now.steps >= limits.budget        ? Stop::budget
+            : limits.seconds > 0.0 && seconds_ >= limits.seconds             ? Stop::time
+            : between && !between(*this)                                     ? Stop::interrupted
+                                                                             : Stop::none;
     if (stop_ != Stop::none) break;
     now = advance_by(chunk(limits, now), limits);
     if (curve_.advance(now.steps, now.episodes, now.return_sum)) record(now, sink);

@@ -38,6 +38,8 @@ struct LearnProgress {
   double return_sum = 0.0;
   std::uint64_t logged = 0;  ///< updates written to the log by the last advance
   Impossible impossible;     ///< the first one
+  /// Work that the last step made due is left, since nobody wanted to wait: advance(0) goes on.
+  bool unfinished = false;
 };
 
 /// What was learned, per choice of the model (choice_begin(s) + a), in plain doubles. Without a

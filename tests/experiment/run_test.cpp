@@ -116,6 +116,23 @@ TEST(Runs, MeansLeaveOutSeedsThatWereInterrupted) {
   EXPECT_EQ(result.statistics.minimum, result.seeds[0].played.mean);
 }
 
+// Fits are due at the very last step, too: pauses within them change nothing.
+TEST(Runs, PausesDoNotCutTheLastFit) {
+  RunSettings settings = limited(100);
+  settings.learn.method = "nfq";
+  settings.learn.deep.hidden = "8";
+  settings.learn.deep.train_every = 50;
+  settings.learn.deep.fits = 3;
+  OneRun whole = started(adventure(), settings), parts = started(adventure(), settings);
+  EXPECT_TRUE(whole.advance(settings, 0.0, {}, {}));
+  std::uint64_t pauses = 0;
+  while (!parts.advance(settings, 1e-9, {}, {})) ++pauses;
+  EXPECT_GE(pauses, 2u);
+  EXPECT_EQ(parts.trainings()[0].stop(), Stop::steps);
+  EXPECT_EQ(parts.trainings()[0].learner().estimates().q,
+            whole.trainings()[0].learner().estimates().q);
+}
+
 TEST(Runs, RecordsEachBinOnce) {
   OneRun run = started(adventure(), limited(64 * 10));
   std::uint64_t last = 0, returns = 0;

@@ -70,7 +70,7 @@ NetworkLearner::NetworkLearner(const LearnSetup& setup, const DeepSetup& deep,
 LearnProgress NetworkLearner::advance(std::uint64_t steps, std::span<Update>) {
   walkers_.forget_finished();
   const std::uint64_t end = walkers_.progress().steps + steps;
-  while (walkers_.progress().steps < end && halt_ == LearnProgress::Halt::none) {
+  while ((walkers_.progress().steps < end || unfinished()) && halt_ == LearnProgress::Halt::none) {
     round();
     if (unfinished()) break;
   }
@@ -80,6 +80,7 @@ LearnProgress NetworkLearner::advance(std::uint64_t steps, std::span<Update>) {
 LearnProgress NetworkLearner::progress() const {
   LearnProgress now = walkers_.progress();
   now.halt = halt_;
+  now.unfinished = unfinished();
   return now;
 }
 
