@@ -244,6 +244,23 @@ std::vector<State> Run::starts() const {
   return {setup->starts.states().begin(), setup->starts.states().end()};
 }
 
+// Over the seeds that count.
+void Run::sum_up(RunResult& result) const {
+  const auto stopped = [](const SeedResult& seed) { return seed.stop == Stop::interrupted; };
+  const bool all = std::all_of(result.seeds.begin(), result.seeds.end(), stopped);
+  std::vector<double> means;
+  for (const SeedResult& seed : result.seeds) {
+    const bool begun = !stopped(seed) || seed.steps > 0;
+    if (begun && (all || !stopped(seed))) means.push_back(seed.played.mean);
+    result.seconds += seed.seconds;
+  }
+  result.counted = means.size();
+  if (!means.empty()) result.statistics = statistics(means);
+  if (const auto& mark = world_->traits.solved; mark && settings_.evaluation_episodes > 0) {
+    result.solved = std::count_if(means.begin(), means.end(), [&](double m) { return m >= *mark; });
+  }
+}
+
 RunResult Run::result(bool solve_too) const {
   RunResult result;
   const Mdp* mdp = world_->mdp.get();
@@ -292,19 +309,7 @@ RunResult Run::result(bool solve_too) const {
     seed.played = play(*world_, *policy, settings_.evaluation_episodes, seed.seed, discount(),
                        usual_cut(*world_));
   });
-  const auto stopped = [](const SeedResult& seed) { return seed.stop == Stop::interrupted; };
-  const bool all = std::all_of(result.seeds.begin(), result.seeds.end(), stopped);
-  std::vector<double> means;
-  for (const SeedResult& seed : result.seeds) {
-    const bool begun = !stopped(seed) || seed.steps > 0;
-    if (begun && (all || !stopped(seed))) means.push_back(seed.played.mean);
-    result.seconds += seed.seconds;
-  }
-  result.counted = means.size();
-  if (!means.empty()) result.statistics = statistics(means);
-  if (const auto& mark = world_->traits.solved; mark && settings_.evaluation_episodes > 0) {
-    result.solved = std::count_if(means.begin(), means.end(), [&](double m) { return m >= *mark; });
-  }
+  sum_up(result);
   return result;
 }
 

@@ -109,6 +109,7 @@ class Run {
                            std::vector<double> initial_rewards);
   void persist(Archive& archive);
   Limits limits_of(const RunSettings& asked) const;
+  void sum_up(RunResult& result) const;
   std::vector<State> starts() const;
   std::function<bool(const Learner&)> referee() const;
 
