@@ -16,6 +16,7 @@
 
 #include "learn/worlds.hpp"
 #include "quoll/base/parallel.hpp"
+#include "quoll/learn/readers.hpp"
 #include "quoll/nn/arithmetic.hpp"
 #include "quoll/solve/average_reward.hpp"
 #include "quoll/solve/finite_horizon.hpp"
@@ -56,10 +57,10 @@ std::uint64_t learned(const LearnerEntry& entry, const World& world, const std::
     if (entry.method == "dqn") settings.deep.batch = 8;
     if (entry.method == "nfq") settings.deep.fits = settings.deep.epochs = 2;  // each is the same
     settings.rule = entry.rule.empty() ? "standard" : entry.rule;
-    settings.explore = explore;
+    if (!ignores(entry, "explore")) settings.explore = explore;
     settings.start = start;
-    settings.step_size = step_size;
-    settings.precision = precision;
+    if (!ignores(entry, "step_size")) settings.step_size = step_size;
+    if (!ignores(entry, "precision")) settings.precision = precision;
     settings.until_stable = false;
     const auto learner = make_learner(settings, world);
     if (!learner) continue;  // a choice this learner or world does not have

@@ -30,8 +30,8 @@ struct Setting {
   std::variant<bool*, std::int64_t*, std::uint64_t*, double*, std::string*, Choice> field;
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  /// Words, ", " between them, of which one must be chosen for the field to be read; empty =
-  /// always.
+  /// Words, ", " between them, of which one must be chosen for the field to be read, and " with "
+  /// between several such lists; empty = always read.
   std::string_view readers = {};
 };
 

@@ -5,6 +5,7 @@
 
 #include "quoll/base/text.hpp"
 #include "quoll/learn/learner.hpp"
+#include "quoll/learn/readers.hpp"
 
 namespace quoll {
 namespace {
@@ -117,7 +118,8 @@ Result<Entrant> parse_entrant(std::string_view word, RaceMode mode) {
                  ""};
   }
   // The log of a race says what was done, whatever auto may come to mean.
-  if (entrant.settings.explore == "auto" && !(*entry)->traits.approximates) {
+  if (entrant.settings.explore == "auto" && !(*entry)->traits.approximates &&
+      !ignores(**entry, "explore")) {
     entrant.settings.explore = "uniform";
   }
   if (mode == RaceMode::start && entrant.settings.start != "world") {

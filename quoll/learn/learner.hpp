@@ -121,6 +121,8 @@ struct LearnerTraits {
   /// Hopes: begins with the most that any policy can earn unless --initial-value says else, and
   /// acts on that: --explore has no say.
   bool optimistic = false;
+  /// Settings of all tables that it does not read, ", " between them: they are refused.
+  std::string_view ignores = {};
 };
 
 /// One line of the registry of learners.

@@ -42,7 +42,44 @@ std::vector<Choices> choices_of(const LearnSettings& settings, const LearnerEntr
           {"--method", {}, {entry.method, keeps}}};
 }
 
+// A list of words with `between` between them.
+std::vector<std::string_view> words_of(std::string_view list, std::string_view between) {
+  std::vector<std::string_view> words;
+  for (;;) {
+    const std::size_t end = list.find(between);
+    words.push_back(trim(list.substr(0, end)));
+    if (end == std::string_view::npos) return words;
+    list.remove_prefix(end + between.size());
+  }
+}
+
+std::string flag_of(const Setting& setting) {
+  std::string flag = "--" + std::string(setting.name);
+  std::replace(flag.begin(), flag.end(), '_', '-');
+  return flag;
+}
+
+// Of one list of readers, one must be chosen.
+Result<void> check_list(const Setting& setting, std::string_view list,
+                        const std::vector<Choices>& choices) {
+  const std::vector<std::string_view> readers = words_of(list, ",");
+  const auto asked = std::find_if(choices.begin(), choices.end(), [&](const Choices& one) {
+    return one.words.empty() || has(one.words, readers.front());
+  });
+  const bool read = std::any_of(asked->chosen.begin(), asked->chosen.end(),
+                                [&](std::string_view word) { return has(readers, word); });
+  if (read) return {};
+  return Error{flag_of(setting), 0, 0,
+               "is for " + std::string(list) + ", but " + std::string(asked->flag) + " is " +
+                   std::string(asked->chosen.front()),
+               ""};
+}
+
 }  // namespace
+
+bool ignores(const LearnerEntry& entry, std::string_view setting) {
+  return has(words_of(entry.traits.ignores, ","), setting);
+}
 
 Result<void> check_readers(const LearnSettings& settings, const LearnerEntry& entry,
                            const Exploration& exploration) {
@@ -51,21 +88,19 @@ Result<void> check_readers(const LearnSettings& settings, const LearnerEntry& en
   const std::vector<Choices> choices = choices_of(settings, entry, exploration);
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Setting& setting = list[i];
-    if (setting.readers.empty() || text_of(setting) == text_of(usual_list[i])) continue;
-    std::vector<std::string_view> readers = split(setting.readers, ',');
-    for (std::string_view& reader : readers) reader = trim(reader);
-    const auto asked = std::find_if(choices.begin(), choices.end(), [&](const Choices& one) {
-      return one.words.empty() || has(one.words, readers.front());
-    });
-    const bool read = std::any_of(asked->chosen.begin(), asked->chosen.end(),
-                                  [&](std::string_view word) { return has(readers, word); });
-    if (read) continue;
-    std::string flag = "--" + std::string(setting.name);
-    std::replace(flag.begin(), flag.end(), '_', '-');
-    return Error{flag, 0, 0,
-                 "is for " + std::string(setting.readers) + ", but " + std::string(asked->flag) +
-                     " is " + std::string(asked->chosen.front()),
-                 ""};
+    if (text_of(setting) == text_of(usual_list[i])) continue;
+    if (ignores(entry, setting.name)) {
+      return Error{flag_of(setting), 0, 0,
+                   (entry.rule.empty() ? "--method " + std::string(entry.method)
+                                       : "--rule " + std::string(entry.rule)) +
+                       " does not read it",
+                   ""};
+    }
+    if (setting.readers.empty()) continue;
+    for (const std::string_view readers : words_of(setting.readers, " with ")) {
+      const Result<void> read = check_list(setting, readers, choices);
+      if (!read) return read;
+    }
   }
   return {};
 }

@@ -74,8 +74,8 @@ void LearnSettings::describe(Describer& d) {
   d("episode_steps", episode_steps,
     "steps after which an episode is cut off; 0 = the world's limit, or as 'list starts' says");
   tables.choice("precision", precision, precision_names, "numbers of the table");
-  d("reward_range", reward_range,
-    "smallest and largest reward of a step, LOW,HIGH; empty = as the world declares");
+  tables("reward_range", reward_range,
+         "smallest and largest reward of a step, LOW,HIGH; empty = as the world declares");
   of_method.describe(d);
   linear.describe(d);
   deep.describe(d);

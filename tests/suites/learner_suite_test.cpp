@@ -14,6 +14,7 @@
 #include "quoll/base/file.hpp"
 #include "quoll/experiment/run.hpp"
 #include "quoll/learn/greedy_rows.hpp"
+#include "quoll/learn/readers.hpp"
 #include "quoll/model/formats/format.hpp"
 #include "quoll/solve/evaluate.hpp"
 #include "quoll/solve/solver.hpp"
@@ -79,9 +80,11 @@ void for_all(const Check& check) {
         settings.method = entry.method;
         settings.deep = small_networks(settings.method);
         settings.rule = entry.rule.empty() ? "standard" : entry.rule;
-        settings.explore = way.explore;
+        if (!ignores(entry, "explore")) settings.explore = way.explore;
         settings.start = way.start;
-        if (settings.rule == "standard" && !approximates) settings.step_size = way.step_size;
+        if (settings.rule == "standard" && !approximates && !ignores(entry, "step_size")) {
+          settings.step_size = way.step_size;
+        }
         settings.episode_steps = 37;
         check(settings, world,
               settings.method + " " + settings.rule + ", " + world.name + ", " + way.explore);
@@ -265,6 +268,85 @@ TEST(Learners, DirectedMethodsActOptimallyFromTheStart) {
               << entry.method << ", " << source.name << ", " << world.mdp->state_name(s);
         }
       }
+    }
+  }
+}
+
+// A setting changes what is learned or is refused: nobody waits for what nothing reads.
+TEST(Learners, EverySettingIsReadOrRefused) {
+  constexpr std::pair<const char*, const char*> others[] = {{"discount", "0.5"},
+                                                            {"explore", "softmax"},
+                                                            {"step_size", "0.05"},
+                                                            {"initial_value", "0.3"},
+                                                            {"precision", "double"},
+                                                            {"trace_decay", "0.3"},
+                                                            {"return_steps", "2"},
+                                                            {"planning_backups", "3"},
+                                                            {"backups", "small"},
+                                                            {"kappa", "0.5"},
+                                                            {"ucb_bonus", "2"},
+                                                            {"tilings", "3"},
+                                                            {"tiles", "4"},
+                                                            {"tile_step_size", "0.1"},
+                                                            {"keep_traces", "true"},
+                                                            {"layout", "separate"},
+                                                            {"hidden", "12"},
+                                                            {"activation", "elu"},
+                                                            {"initial_weights", "he"},
+                                                            {"inputs", "raw"},
+                                                            {"optimiser", "sgd"},
+                                                            {"learning_rate", "0.003"},
+                                                            {"optimiser_epsilon", "0.1"},
+                                                            {"gradient_decay", "0.5"},
+                                                            {"loss", "squared"},
+                                                            {"clip_gradient", "1e-6"},
+                                                            {"batch", "7"},
+                                                            {"reward_scale", "0.5"},
+                                                            {"replay", "150"},
+                                                            {"learning_starts", "90"},
+                                                            {"train_every", "3"},
+                                                            {"gradient_steps", "2"},
+                                                            {"target_every", "7"},
+                                                            {"target_share", "0.3"},
+                                                            {"double_q", "true"},
+                                                            {"duelling", "true"},
+                                                            {"multi_step", "2"},
+                                                            {"prioritised", "true"},
+                                                            {"munchausen", "true"},
+                                                            {"noisy", "true"},
+                                                            {"returns", "quantile"},
+                                                            {"fits", "3"},
+                                                            {"walkers", "3"},
+                                                            {"rollout", "5"},
+                                                            {"minibatches", "3"},
+                                                            {"epochs", "3"},
+                                                            {"return_decay", "0.1"},
+                                                            {"overshoot_bound", "2.5"},
+                                                            {"priority_exponent", "0.1"},
+                                                            {"epsilon", "0.7"}};
+  const World ice = slippery(60), pole = *find_world("cartpole");
+  for (const LearnerEntry& entry : learners()) {
+    const World& world = entry.traits.approximates ? pole : ice;
+    LearnSettings usual;
+    usual.method = entry.method;
+    usual.rule = entry.rule.empty() ? "standard" : entry.rule;
+    usual.until_stable = false;
+    if (!entry.traits.approximates && !ignores(entry, "explore")) usual.explore = "epsilon-greedy";
+    usual.deep = small_networks(usual.method);
+    const auto as_usual = learner(usual, world);
+    as_usual->advance(700, {});
+    for (const auto& [name, text] : others) {
+      // Rprop asks for signs only: twice the error is the same.
+      if (entry.method == "nfq" && name == std::string("loss")) continue;
+      LearnSettings settings = usual;
+      const std::vector<Setting> list = settings_of(settings);
+      ASSERT_NE(find(list, name), nullptr) << name;
+      ASSERT_TRUE(assign(*find(list, name), text, name));
+      const auto changed = make_learner(settings, world);
+      if (!changed) continue;
+      (*changed)->advance(700, {});
+      EXPECT_TRUE(saved(**changed) != saved(*as_usual))
+          << entry.method << " " << entry.rule << ": " << name << " = " << text;
     }
   }
 }

@@ -27,11 +27,11 @@ void DeepSettings::describe_network(Describer& d) {
       "of its name");
   batched("optimiser", optimiser, "sgd, rmsprop, centred-rmsprop, adam, radam or rprop");
   networks("learning_rate", learning_rate, "step of the optimiser, or FROM:TO:STEPS");
-  d.of("adam, radam, rmsprop, centred-rmsprop")("optimiser_epsilon", optimiser_epsilon, 0, 1,
+  d.of("adam, radam, rmsprop, centred-rmsprop")("optimiser_epsilon", optimiser_epsilon, 1e-30, 1,
                                                 "what is added to the root in the denominator");
   d.of("rmsprop, centred-rmsprop")("gradient_decay", gradient_decay, 0, 1,
                                    "decay of the running means");
-  batched("loss", loss, "squared, half-squared or huber");
+  d.of("nfq, dqn, pqn, distil with mean")("loss", loss, "squared, half-squared or huber");
   batched("clip_gradient", clip_gradient, -1, 1e300,
           "largest norm of a gradient; 0 = any, -1 = the method's");
   d.of("dqn, distil")("batch", batch, 0, 65536, "transitions of an update; 0 = the method's");

@@ -66,7 +66,9 @@ Result<std::vector<nn::LayerSpec>> layers(const DeepSettings& settings, const Sp
   std::vector<nn::LayerSpec> list;
   const bool planes = spaces.shape[0] > 0;
   std::string_view filters = settings.filters;
-  if (filters == "auto") filters = planes ? habits.filters : "none";
+  // A layout that reads the action beside the state reads a list of numbers.
+  const bool joint = settings.layout == NetworkLayout::joint;
+  if (filters == "auto") filters = planes && !joint ? habits.filters : "none";
   for (const std::string_view part : parts(filters)) {
     const auto layer = convolution(part);
     if (!layer) {
@@ -79,6 +81,12 @@ Result<std::vector<nn::LayerSpec>> layers(const DeepSettings& settings, const Sp
       return Error{"--filters", 0, 0,
                    "convolutions read worlds of planes; what is observed here is a list of numbers",
                    "none"};
+    }
+    if (joint) {
+      return Error{
+          "--filters", 0, 0,
+          "convolutions read planes alone, but --layout joint reads the action beside them",
+          "none"};
     }
     list.push_back(*layer);
   }

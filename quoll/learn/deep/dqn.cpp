@@ -14,7 +14,7 @@
 //   5     a* <- argmax_b Q'(s'_i, b), or of Q with double;  y_i <- R_i + g_i Q'(s'_i, a*)
 //         Munchausen: y_i <- R_i + 0.9 [0.03 log pi(a_i|s_i)]_{-1}^0
 //                            + g_i sum_b pi(b|s'_i) (Q'(s'_i, b) - 0.03 log pi(b|s'_i)),
-//                     pi = softmax(Q' / 0.03)
+//                     pi = softmax(Q' / 0.03); on s', with double, softmax(Q / 0.03)
 //   6     a step down the gradient of mean w_i L(Q(s_i, a_i), y_i), w_i = (|D| P(i))^-beta / max w
 //   7     p_i <- |error| + 1e-6
 //   8   every target_every steps: Q' <- Q, or a part of the way
@@ -184,7 +184,8 @@ void Dqn::find_targets() {
   q_->values(Weights::target, after_.data(), batch_, values_.data());
   if (how_.munchausen) {
     q_->values(Weights::target, before_.data(), batch_, own_values_.data());
-  } else if (how_.double_q) {
+  }
+  if (how_.double_q) {
     q_->redraw(Weights::online);
     q_->values(Weights::online, after_.data(), batch_, online_values_.data());
   }
@@ -193,9 +194,8 @@ void Dqn::find_targets() {
     put_in_order(next_states_[i], values_.data() + i * row);
     if (how_.munchausen) {
       put_in_order(here_states_[i], own_values_.data() + i * row);
-    } else if (how_.double_q) {
-      put_in_order(next_states_[i], online_values_.data() + i * row);
     }
+    if (how_.double_q) put_in_order(next_states_[i], online_values_.data() + i * row);
     targets_of_.find(
         {values_.data() + i * row, online_values_.data() + i * row, own_values_.data() + i * row,
          walkers_.actions_of(next_states_[i]), walkers_.actions_of(here_states_[i])},

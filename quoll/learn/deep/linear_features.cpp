@@ -8,6 +8,13 @@ Result<LinearFeatures> LinearFeatures::make(const LearnSetup& setup) {
   LinearFeatures features;
   features.actions_ = spaces.actions;
   if (spaces.states > 0) {
+    const LinearSettings usual;
+    if (setup.linear.tilings != usual.tilings || setup.linear.tiles != usual.tiles) {
+      return Error{setup.linear.tiles != usual.tiles ? "--tiles" : "--tilings", 0, 0,
+                   "tiles cover observed numbers, but " + world.name +
+                       " numbers its states: each is a feature of its own",
+                   ""};
+    }
     features.features_ = spaces.states;
   } else {
     if (world.measured.empty() || world.measured.size() != spaces.observation) {

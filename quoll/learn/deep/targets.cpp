@@ -60,7 +60,7 @@ std::span<const float> Targets::means(const float* outputs, std::size_t legal) {
 void Targets::find(const Surroundings& at, Action action, float reward, float carry,
                    std::span<float> out) {
   if (munchausen_) return soft(at, action, reward, carry, out);
-  const Action best = greedy(means(double_q_ ? at.next_online : at.next, at.legal_next));
+  const Action best = greedy(means(chooses(at), at.legal_next));
   distribution_.target(outputs_of(at.next, best), reward, carry, out);
 }
 
@@ -69,7 +69,7 @@ void Targets::soft(const Surroundings& at, Action action, float reward, float ca
   using Soft = SoftPolicy;
   const double log_policy = Soft(means(at.here, at.legal_here)).scaled_log(action);
   reward += static_cast<float>(Soft::weight * std::max(log_policy, Soft::least));
-  const Soft policy(means(at.next, at.legal_next));
+  const Soft policy(means(chooses(at), at.legal_next));
   std::fill(out.begin(), out.end(), 0.0F);
   for (std::size_t b = 0; b < at.legal_next; ++b) {
     const auto share = static_cast<float>(policy.share(b));

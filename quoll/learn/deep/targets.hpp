@@ -36,11 +36,16 @@ class Targets {
   /// Writes the target of taking `action` with this reward and carry: as many numbers as an action
   /// has outputs. Double: van Hasselt, Guez, Silver 2016,
   /// equation 4. Munchausen: Vieillard, Pietquin, Geist 2020, equation 1, temperature 0.03, weight
-  /// 0.9, the log-policy cut at -1; of distributions, the mixture by the soft policy.
+  /// 0.9, the log-policy cut at -1; of distributions, the mixture by the soft policy. Both: the
+  /// soft policy in s' is that of the online weights, and the target weights say what it is worth.
   void find(const Surroundings& at, Action action, float reward, float carry, std::span<float> out);
 
  private:
   std::span<const float> means(const float* outputs, std::size_t legal);
+  /// The values by which an action of s' is chosen.
+  const float* chooses(const Surroundings& at) const {
+    return double_q_ ? at.next_online : at.next;
+  }
   std::span<const float> outputs_of(const float* outputs, std::size_t action) const {
     return {outputs + action * distribution_.atoms(), distribution_.atoms()};
   }

@@ -47,6 +47,7 @@ const LearnerEntry q_learning_as_printed{
     "the lecture's pseudo code exactly as printed; counts the future again at each re-visit",
     false,
     tabular<AsPrinted>,
-    replay<AsPrinted>};
+    replay<AsPrinted>,
+    {.ignores = "precision, initial_value"}};
 
 }  // namespace quoll

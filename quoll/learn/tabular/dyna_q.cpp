@@ -103,6 +103,7 @@ const LearnerEntry dyna_q{
     .sound = true,
     .make = make<false>,
     .replay = nullptr,
+    .traits = {.ignores = "precision"},
     .formula =
         "Q(s,a) := Q(s,a) + step size * (r + discount * max Q(s',.) - Q(s,a)), then for n pairs "
         "tried before Q(x,u) := mean of r + discount * max Q(y,.) over their counts"};
@@ -113,7 +114,7 @@ const LearnerEntry dyna_q_plus{
     .sound = true,
     .make = make<true>,
     .replay = nullptr,
-    .traits = {.off_policy = false},
+    .traits = {.off_policy = false, .ignores = "precision"},
     .formula =
         "Q(s,a) := Q(s,a) + step size * (r + discount * max Q(s',.) - Q(s,a)), then for n pairs "
         "tried before Q(x,u) := mean of r + discount * max Q(y,.) over their counts + kappa * "

@@ -78,7 +78,7 @@ const LearnerEntry empirical_model{
     .sound = true,
     .make = make,
     .replay = nullptr,
-    .traits = {.plans = true},
+    .traits = {.plans = true, .ignores = "step_size, precision"},
     .formula =
         "Q := the solution of Q(s,a) = sum of N(s,a,s') / N(s,a) * (r + discount * max Q(s',.)), "
         "N = the counts so far"};

@@ -238,7 +238,10 @@ const LearnerEntry optimistic_model{
     .sound = true,
     .make = make,
     .replay = nullptr,
-    .traits = {.plans = true, .has_bounds = true, .directed = true},
+    .traits = {.plans = true,
+               .has_bounds = true,
+               .directed = true,
+               .ignores = "step_size, precision, explore"},
     .check = needs_value_range,
     .formula =
         "U(s,a) := the most that is possible if N(s,a) < m, else mean of r + discount * max "

@@ -101,7 +101,7 @@ const LearnerEntry posterior_sampling{
     .sound = true,
     .make = make,
     .replay = nullptr,
-    .traits = {.plans = true, .directed = true},
+    .traits = {.plans = true, .directed = true, .ignores = "step_size, precision, explore, ties"},
     .check = needs_value_range,
     .formula =
         "Q(s,a) := mean of r + discount * max Q(s',.) over the counts of (s, a); acts by the "

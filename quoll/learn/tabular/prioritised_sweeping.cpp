@@ -172,6 +172,7 @@ const LearnerEntry prioritised_sweeping{
     .sound = true,
     .make = make,
     .replay = nullptr,
+    .traits = {.ignores = "step_size, precision"},
     .formula =
         "Q(s,a) := mean of r + discount * max Q(s',.) over the counts of (s, a), then the same "
         "for the n pairs whose followers changed most"};

@@ -78,7 +78,7 @@ const LearnerEntry ucb_q{
     .sound = true,
     .make = method_learner<UcbQ>,
     .replay = nullptr,
-    .traits = {.directed = true, .optimistic = true},
+    .traits = {.directed = true, .optimistic = true, .ignores = "explore"},
     .check = needs_value_range,
     .formula =
         "Q(s,a) := Q(s,a) + step size * (r + b + discount * max Q^(s',.) - Q(s,a)), Q^ := "

@@ -344,6 +344,7 @@ TEST(Dqn, DistributionsHaveTheRightMean) {
   for (const Returns returns : {Returns::categorical, Returns::quantile}) {
     LearnSettings settings = network("dqn");
     settings.deep.returns = returns;
+    settings.deep.loss = "auto";
     settings.deep.atoms = 21;
     if (returns == Returns::categorical) {
       settings.deep.lowest_return = 0.0;

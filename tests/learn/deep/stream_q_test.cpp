@@ -21,7 +21,9 @@ TEST(RunningScale, IsTheMeanAndTheDeviationOfTheSample) {
   for (int i = 1; i <= 5; ++i) {
     const float row[] = {static_cast<float>(i), 7.0F};
     scale.add(std::span<const float>(row));
-    if (i == 1) EXPECT_NEAR(scale.deviation(0), 1.0, 1e-8);
+    if (i == 1) {
+      EXPECT_NEAR(scale.deviation(0), 1.0, 1e-8);
+    }
   }
   EXPECT_DOUBLE_EQ(scale.mean(0), 3.0);
   EXPECT_NEAR(scale.deviation(0), std::sqrt(2.5), 1e-8);

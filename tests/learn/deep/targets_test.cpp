@@ -84,12 +84,16 @@ TEST(Targets, AreTheFormulas) {
       for (std::size_t b = 0; b < count; ++b) sum += std::exp((double{q[b]} - most) / 0.03);
       return (double{q[a]} - most) / 0.03 - std::log(sum);
     };
-    double soft = r + 0.9 * std::max(0.03 * log_policy(here, legal_here, action), -1.0);
-    for (std::size_t b = 0; b < legal; ++b) {
-      const double log_share = log_policy(next, legal, b);
-      soft += g * std::exp(log_share) * (double{next[b]} - 0.03 * log_share);
-    }
-    EXPECT_NEAR(target(false, true), soft, 1e-5);
+    const auto soft = [&](const std::vector<float>& chooses) {
+      double y = r + 0.9 * std::max(0.03 * log_policy(here, legal_here, action), -1.0);
+      for (std::size_t b = 0; b < legal; ++b) {
+        const double log_share = log_policy(chooses, legal, b);
+        y += g * std::exp(log_share) * (double{next[b]} - 0.03 * log_share);
+      }
+      return y;
+    };
+    EXPECT_NEAR(target(false, true), soft(next), 1e-5);
+    EXPECT_NEAR(target(true, true), soft(online), 1e-5);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../worlds.hpp"
+#include "quoll/learn/readers.hpp"
 #include "quoll/learn/tabular/rules.hpp"
 
 namespace quoll {
@@ -26,7 +27,7 @@ LearnSettings half_steps(std::string_view method) {
   LearnSettings settings;
   settings.method = method;
   settings.step_size = "0.5";
-  settings.precision = Precision::twofold;
+  if (!ignores(**find_learner(settings), "precision")) settings.precision = Precision::twofold;
   settings.until_stable = false;
   return settings;
 }
@@ -86,7 +87,7 @@ TEST(Methods, ReturnsChangeSignWhenTheTurnPasses) {
       continue;
     LearnSettings settings = half_steps(entry.method);
     if (!entry.rule.empty()) settings.rule = entry.rule;
-    settings.step_size = "1";
+    settings.step_size = ignores(entry, "step_size") ? "auto" : "1";
     EXPECT_EQ(tables(settings, chain(true), 90).back(), (Table{1, 0, 4})) << entry.method;
   }
 }

@@ -76,7 +76,7 @@ TEST(Traps, EpsilonGreedyWithAZeroTableStaysAshore) {
   const std::uint64_t soon = race.steps(hopeful, 100'000);
   EXPECT_GT(soon, 0u);
   EXPECT_LE(soon, 2000u);
-  const std::uint64_t also = race.steps(exploring("uniform", 0.99, "ucb-q"), 100'000);
+  const std::uint64_t also = race.steps(exploring("auto", 0.99, "ucb-q"), 100'000);
   EXPECT_GT(also, 0u);
   EXPECT_LE(also, 2000u);
 }
@@ -134,7 +134,7 @@ TEST(Traps, OptimisticValuesUnderNoiseDependOnTheStepSize) {
 TEST(Traps, UcbQWithAShortenedHorizonFails) {
   const World lake = named("frozen-lake");
   const Race race(lake, lake.discount, 5000);
-  const LearnSettings settings = exploring("uniform", 0.0, "ucb-q");
+  const LearnSettings settings = exploring("auto", 0.0, "ucb-q");
   EXPECT_GT(race.steps(settings, 1'000'000), 0u);
   LearnSetup shortened = *resolve(settings, lake);
   ASSERT_NEAR(shortened.step_size.value, 100.0, 1e-9);
