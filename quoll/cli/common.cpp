@@ -252,6 +252,9 @@ void catch_interrupts() {
 bool interrupted() {
   return interrupt_count > 0;
 }
+int interrupts() {
+  return interrupt_count;
+}
 void release_interrupts() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);

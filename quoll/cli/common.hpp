@@ -88,6 +88,8 @@ bool stderr_is_terminal();
 /// From now on Ctrl-C sets a flag instead of ending the program; a second one ends it.
 void catch_interrupts();
 bool interrupted();
+/// How often Ctrl-C was pressed so far.
+int interrupts();
 /// From now on Ctrl-C ends the program again.
 void release_interrupts();
 

@@ -246,7 +246,8 @@ Exit tell(const Run& run, const LearnOptions& options, const RunSettings& limits
                          limits.has_limit(),
                          coming,
                          &*beside};
-  const RunResult result = run.result(true);
+  const RunResult result =
+      run.result(true, [before = interrupts()] { return interrupts() == before; });
   const std::string text = options.output.json ? learn_json(run, result, story)
                                                : learn_text(run, result, stdout_style(), story);
   if (!print(text)) return user_error;

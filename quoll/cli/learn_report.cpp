@@ -198,12 +198,15 @@ std::string seeds_rows(const Run& run, const RunResult& result, const LearnStory
 // "Reached by 29 of 30 seeds: ...".
 std::string reached_line(const RunResult& result) {
   std::vector<double> steps, seconds;
+  std::size_t known = 0;
   for (const SeedResult& seed : result.seeds) {
+    known += seed.reached || seed.stop != Stop::interrupted;
     if (!seed.reached) continue;
     steps.push_back(static_cast<double>(seed.reached->steps));
     seconds.push_back(seed.reached->processor_seconds);
   }
-  std::string text = fmt::format("reached by {} of {} seeds", steps.size(), result.seeds.size());
+  std::string text = fmt::format("reached by {} of {} seeds", steps.size(), known);
+  if (known < result.seeds.size()) text += ", besides those interrupted before";
   if (steps.empty()) return text + "\n";
   return text + fmt::format(", in the median of these after {} steps and {:.2f} s of a processor\n",
                             grouped(static_cast<std::uint64_t>(statistics(steps).median)),

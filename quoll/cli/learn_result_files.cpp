@@ -1,6 +1,9 @@
 // What a run folder tells of the result: seeds.csv, curve.svg, and event files for TensorBoard.
 
 #include <cmath>
+#include <filesystem>
+#include <set>
+#include <system_error>
 
 #include "quoll/base/file.hpp"
 #include "quoll/base/text.hpp"
@@ -68,6 +71,25 @@ std::vector<Scalar> scalars_of(std::string_view rows) {
   return scalars;
 }
 
+std::string seed_folder(std::uint64_t seed) {
+  return "seed-" + std::to_string(seed);
+}
+
+constexpr const char* events_name = "events.out.tfevents.quoll";
+
+// Events of an earlier run in this folder, of seeds that this one has not; nothing else.
+void remove_other_seeds(const std::string& tensorboard, const Run& run) {
+  std::set<std::string> ours;
+  for (const Training& training : run.trainings()) ours.insert(seed_folder(training.seed()));
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(tensorboard, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind("seed-", 0) != 0 || ours.count(name) > 0) continue;
+    std::filesystem::remove(entry.path() / events_name, ignored);
+    std::filesystem::remove(entry.path(), ignored);  // fails while there is more in it
+  }
+}
+
 }  // namespace
 
 Result<void> RunFiles::write_result(const Run& run, const RunResult& result) const {
@@ -82,13 +104,12 @@ Result<void> RunFiles::write_result(const Run& run, const RunResult& result) con
   if (!written) return written;
   written = make_folder(in_folder("tensorboard"));
   if (!written) return written;
+  remove_other_seeds(in_folder("tensorboard"), run);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const std::string folder =
-        in_folder("tensorboard/seed-" + std::to_string(run.trainings()[i].seed()));
+    const std::string folder = in_folder("tensorboard/" + seed_folder(run.trainings()[i].seed()));
     written = make_folder(folder);
     if (written) {
-      written = write_file(folder + "/events.out.tfevents.quoll",
-                           tensorboard_events(scalars_of(rows_[i])));
+      written = write_file(folder + "/" + events_name, tensorboard_events(scalars_of(rows_[i])));
     }
     if (!written) return written;
   }

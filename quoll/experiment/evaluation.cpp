@@ -28,7 +28,7 @@ std::uint64_t usual_cut(const World& world) {
 }
 
 Played play(const World& world, const Policy& policy, std::uint64_t episodes, std::uint64_t seed,
-            double discount, std::uint64_t episode_steps) {
+            double discount, std::uint64_t episode_steps, const std::function<bool()>& keep_going) {
   Played played;
   const std::uint64_t streams_seed = stream(seed, "evaluation").next();
   const std::unique_ptr<Environment> environment =
@@ -43,7 +43,8 @@ Played play(const World& world, const Policy& policy, std::uint64_t episodes, st
   const std::uint8_t restart = 1;
   std::uint64_t steps = 0, ended = 0, unknown = 0;
   double sum = 0.0, discounted_sum = 0.0;
-  for (std::uint64_t episode = 0; episode < episodes; ++episode) {
+  for (; played.episodes < episodes; ++played.episodes) {
+    if (keep_going && !keep_going()) break;
     environment->restart({&restart, 1}, now);
     double side = 1.0, factor = 1.0;  // of the reward, as the player who moved first sees it
     bool over = world.mdp && world.mdp->terminal(state), known = true;
@@ -67,9 +68,8 @@ Played play(const World& world, const Policy& policy, std::uint64_t episodes, st
     }
     unknown += !known;
   }
-  const auto count = static_cast<double>(episodes);
-  played.episodes = episodes;
-  if (episodes == 0) return played;
+  if (played.episodes == 0) return played;
+  const auto count = static_cast<double>(played.episodes);
   played.mean = sum / count;
   played.mean_discounted = discounted_sum / count;
   played.mean_steps = static_cast<double>(steps) / count;

@@ -3,6 +3,7 @@
 // seeds.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,9 +33,11 @@ std::uint64_t usual_cut(const World& world);
 
 /// Plays `episodes` episodes from the world's own starts with the stream "evaluation" of `seed`,
 /// each cut off after `episode_steps`. A state the policy knows nothing about ends the episode, and
-/// is counted. Policies that draw take the stream "behaviour".
+/// is counted. Policies that draw take the stream "behaviour". Before each episode `keep_going` is
+/// asked, if given; after a no the episodes so far are all.
 Played play(const World& world, const Policy& policy, std::uint64_t episodes, std::uint64_t seed,
-            double discount, std::uint64_t episode_steps);
+            double discount, std::uint64_t episode_steps,
+            const std::function<bool()>& keep_going = {});
 
 /// Over per-seed means: mean, median, interquartile mean, smallest, and the 95 % bootstrap interval
 /// of the mean (2,000 resamples, fixed stream). Agarwal et al. 2021 ("Deep RL at the edge of the

@@ -246,11 +246,13 @@ std::vector<State> Run::starts() const {
 
 // Over the seeds that count.
 void Run::sum_up(RunResult& result) const {
-  const auto stopped = [](const SeedResult& seed) { return seed.stop == Stop::interrupted; };
+  const auto stopped = [&](const SeedResult& seed) {
+    return seed.stop == Stop::interrupted || seed.played.episodes < settings_.evaluation_episodes;
+  };
   const bool all = std::all_of(result.seeds.begin(), result.seeds.end(), stopped);
   std::vector<double> means;
   for (const SeedResult& seed : result.seeds) {
-    const bool begun = !stopped(seed) || seed.steps > 0;
+    const bool begun = !stopped(seed) || seed.played.episodes > 0;
     if (begun && (all || !stopped(seed))) means.push_back(seed.played.mean);
     result.seconds += seed.seconds;
   }
@@ -261,13 +263,14 @@ void Run::sum_up(RunResult& result) const {
   }
 }
 
-RunResult Run::result(bool solve_too) const {
+RunResult Run::result(bool solve_too, const std::function<bool()>& keep_going) const {
   RunResult result;
   const Mdp* mdp = world_->mdp.get();
   if (mdp && solve_too) {
     SolveSettings settings;
     settings.discount = discount();
     settings.width = 1e-9;
+    if (keep_going) settings.keep_going = [&](const SolveProgress&) { return keep_going(); };
     Result<Solution> exact = solve(*mdp, settings);
     if (exact)
       result.exact = std::move(*exact);
@@ -307,7 +310,7 @@ RunResult Run::result(bool solve_too) const {
     // Of a seed that never began there is nothing to tell.
     if (seed.stop == Stop::interrupted && seed.steps == 0) return;
     seed.played = play(*world_, *policy, settings_.evaluation_episodes, seed.seed, discount(),
-                       usual_cut(*world_));
+                       usual_cut(*world_), keep_going);
   });
   sum_up(result);
   return result;

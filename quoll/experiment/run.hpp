@@ -55,8 +55,8 @@ struct RunResult {
   std::optional<Solution> exact;
   std::string no_exact;  ///< why there is no exact answer
   std::vector<SeedResult> seeds;
-  /// Over the mean returns of `counted` seeds: where somebody stopped only some, of the others;
-  /// where all, of those that had begun.
+  /// Over the mean returns of `counted` seeds: where somebody stopped only some, while they learned
+  /// or while they played, of the others; where all, of those that had begun.
   Statistics statistics;
   std::uint64_t counted = 0;
   std::optional<std::uint64_t>
@@ -90,7 +90,7 @@ class Run {
                const std::function<bool(const RunProgress&)>& keep_going, const Sink& sink);
 
   /// Judges and plays the policies. `solve_too` = find the exact answer if the model is known.
-  RunResult result(bool solve_too) const;
+  RunResult result(bool solve_too, const std::function<bool()>& keep_going = {}) const;
 
   const RunSettings& settings() const { return settings_; }
   /// How many processors advance() and result() use; changes no result.

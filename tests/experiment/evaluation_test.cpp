@@ -37,6 +37,19 @@ TEST(Play, EndsWhereThePolicyKnowsNothingAndAtTheCut) {
   EXPECT_EQ(play(world, TablePolicy(left), 3, 1, 0.9, 0).mean_steps, 0.0);
 }
 
+// A game that is told to stop counts what it has played, and nothing else.
+TEST(Play, StopsBeforeAnEpisodeWhenTold) {
+  const World world = slippery(5);
+  const TablePolicy right(std::vector<Action>(world.mdp->states(), 1));
+  int asked = 0;
+  const Played some = play(world, right, 10, 1, 0.9, 100, [&] { return ++asked <= 3; });
+  const Played three = play(world, right, 3, 1, 0.9, 100);
+  EXPECT_EQ(some.episodes, 3u);
+  EXPECT_EQ(some.mean, three.mean);
+  EXPECT_EQ(some.mean_steps, three.mean_steps);
+  EXPECT_EQ(play(world, right, 10, 1, 0.9, 100, [] { return false; }).episodes, 0u);
+}
+
 // Draw at once: 8 or 0. 10,000 episodes: 4 within 5 * 4 / 100 = 0.2 (false alarm 1 in 1.7 million).
 TEST(Play, UsesTheWorldsOwnChance) {
   World world = lottery();
