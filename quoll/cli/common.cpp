@@ -152,6 +152,26 @@ Result<void> GivenSettings::apply(std::vector<Setting> settings) const {
   return {};
 }
 
+Error GivenSettings::placed(Error error) const {
+  if (config.empty() || error.file.rfind("--", 0) != 0) return error;
+  std::string key = error.file.substr(2);
+  std::replace(key.begin(), key.end(), '-', '_');
+  const auto pairs = given();
+  const Result<std::string> text = read_file(config);
+  if (!pairs || !text) return error;
+  for (const auto& [name, value] : *pairs) {
+    if (name == key) return error;
+  }
+  std::uint64_t line = 0;
+  for (const std::string_view row : split(*text, '\n')) {
+    ++line;
+    const std::size_t equals = row.find('=');
+    if (equals == std::string_view::npos || trim(row.substr(0, equals)) != key) continue;
+    return Error{config, line, 0, key + ": " + error.expected, error.nearest};
+  }
+  return error;
+}
+
 Result<double> parse_discount(const std::string& text) {
   const auto number = parse_number(text);
   if (number && *number > 0.0 && *number <= 1.0) return *number;

@@ -65,6 +65,8 @@ struct GivenSettings {
   Result<void> apply(std::vector<Setting> settings) const;
   /// Keys given by flag or --set, with their texts.
   Result<std::vector<std::pair<std::string, std::string>>> given() const;
+  /// The error of a flag that was not given, but whose key stands in the file: at its line there.
+  Error placed(Error error) const;
   /// Refuses a discount given by flag or --set outside (0, 1].
   Result<void> check_discount() const;
 };

@@ -303,7 +303,7 @@ Exit learn(const LearnOptions& options) {
   const Result<double> pause = save_pause(options);
   if (!pause) return fail(pause.error());
   Result<Run> run = open_run(options, *limits);
-  if (!run) return fail(run.error());
+  if (!run) return fail(options.how.placed(run.error()));
   if (const Result<void> fits = run->allows(*limits); !fits) return fail(fits.error());
   run->set_threads(options.threads);
   if (!options.certificate.empty()) {

@@ -262,8 +262,9 @@ std::string curve_line(const Run& run, const TerminalStyle& style) {
 std::string next_steps(const Run& run) {
   if (!run.world().mdp || !run.entry().sound) return "";
   const std::string& name = run.source().name;
-  return fmt::format("Next: quoll explain {0} | quoll solve {0} | quoll show {0} -o {1}.svg\n",
-                     name, run.world().name);
+  const bool table = !run.entry().traits.approximates;  // explain shows updates of tables
+  return fmt::format("Next: {2}quoll solve {0} | quoll show {0} -o {1}.svg\n", name,
+                     run.world().name, table ? "quoll explain " + name + " | " : "");
 }
 
 // The rule as-printed and the standard rule, where they part.
