@@ -46,6 +46,7 @@ const Arithmetic* functions() {
                                      .scale = scale,
                                      .trace = trace,
                                      .blend = blend,
+                                     .perturb = perturb,
                                      .sgd = sgd,
                                      .adam = adam,
                                      .rmsprop = rmsprop,

@@ -125,6 +125,10 @@ struct Arithmetic {
   double (*trace)(float* z, const float* gradient, std::size_t n, float decay);
   /// to += share * (from - to): Polyak averaging.
   void (*blend)(float* to, const float* from, std::size_t n, float share);
+  /// out = mean + spread (by factors), or (by factors) spread without a mean; every product and sum
+  /// rounded for itself.
+  void (*perturb)(const float* mean, const float* spread, float by, const float* factors,
+                  std::size_t n, float* out);
   void (*sgd)(float* x, const float* gradient, std::size_t n, float step);
   void (*adam)(float* x, const float* gradient, float* mean, float* square, std::size_t n,
                const AdamStep& how);

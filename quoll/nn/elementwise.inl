@@ -157,6 +157,17 @@ void blend(float* to, const float* from, std::size_t n, float share) {
   }
 }
 
+void perturb(const float* mean, const float* spread, float by, const float* factors, std::size_t n,
+             float* out) {
+  const Wide d;
+  const Vector all = hn::Set(d, by);
+  for (std::size_t i = 0; i < n; i += lanes) {
+    const Vector one = hn::Mul(all, hn::LoadU(d, factors + i));
+    const Vector moved = hn::Mul(hn::LoadU(d, spread + i), one);
+    hn::StoreU(mean == nullptr ? moved : hn::Add(hn::LoadU(d, mean + i), moved), d, out + i);
+  }
+}
+
 }  // namespace quoll::nn::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

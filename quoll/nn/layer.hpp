@@ -73,6 +73,8 @@ struct Layer {
   std::size_t fan() const { return inputs / in.channels * in_used; }
   bool used(std::size_t input) const { return input % in.channels < in_used; }
   bool normalised() const { return spec.normalisation != Normalisation::none; }
+  /// One more than the offset of its last parameter.
+  std::size_t end() const { return normalised() ? shift + normalised_row() : bias + row; }
   /// Numbers that are normalised together.
   std::size_t normalised_row() const {
     return spec.normalisation == Normalisation::sample ? width() : row;

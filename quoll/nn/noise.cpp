@@ -52,37 +52,36 @@ void Noise::draw(Rng& rng) {
 }
 
 void Noise::compose(std::span<const float> mu_sigma, std::span<float> weights) const {
-  std::copy_n(mu_sigma.data(), weights.size(), weights.data());
-  const float* const sigma = mu_sigma.data() + weights.size();
+  const float* const mu = mu_sigma.data();
+  const float* const sigma = mu + weights.size();
   const float* factors = factors_.data();
   for (const Layer& layer : network_.layers()) {
-    if (!noisy(layer)) continue;
-    rows(layer, factors, [&](std::size_t begin, float by, const float* outputs) {
-      float* __restrict const w = weights.data() + begin;
-      const float* __restrict const spread = sigma + begin;
-      for (std::size_t j = 0; j < layer.row; j += vector_width) {
-        for (std::size_t k = j; k < j + vector_width; ++k) w[k] += spread[k] * (by * outputs[k]);
-      }
-    });
+    std::size_t calm = layer.weights;  // what has no noise, from here on
+    if (noisy(layer)) {
+      rows(layer, factors, [&](std::size_t begin, float by, const float* outputs) {
+        arithmetic().perturb(mu + begin, sigma + begin, by, outputs, layer.row,
+                             weights.data() + begin);
+      });
+      calm = layer.bias + layer.row;
+    }
+    std::copy(mu + calm, mu + layer.end(), weights.data() + calm);
     factors += factors_of(layer);
   }
 }
 
 void Noise::pass_on(std::span<float> gradients) const {
-  const std::size_t parameters = network_.parameters();
-  std::fill_n(gradients.data() + parameters, parameters, 0.0F);
+  float* const by_sigma = gradients.data() + network_.parameters();
   const float* factors = factors_.data();
   for (const Layer& layer : network_.layers()) {
-    if (!noisy(layer)) continue;
-    rows(layer, factors, [&](std::size_t begin, float by, const float* outputs) {
-      const float* __restrict const by_w = gradients.data() + begin;
-      float* __restrict const by_sigma = gradients.data() + parameters + begin;
-      for (std::size_t j = 0; j < layer.row; j += vector_width) {
-        for (std::size_t k = j; k < j + vector_width; ++k) {
-          by_sigma[k] = by_w[k] * (by * outputs[k]);
-        }
-      }
-    });
+    std::size_t calm = layer.weights;
+    if (noisy(layer)) {
+      rows(layer, factors, [&](std::size_t begin, float by, const float* outputs) {
+        arithmetic().perturb(nullptr, gradients.data() + begin, by, outputs, layer.row,
+                             by_sigma + begin);
+      });
+      calm = layer.bias + layer.row;
+    }
+    std::fill(by_sigma + calm, by_sigma + layer.end(), 0.0F);
     factors += factors_of(layer);
   }
 }
