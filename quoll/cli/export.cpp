@@ -23,6 +23,7 @@ struct ExportOptions {
   std::string to;
   std::string file;
   std::string name;
+  std::string seed;  // empty = the first
 };
 
 template <std::string (*write)(const PolicyExport&)>
@@ -67,19 +68,33 @@ Result<const ExportTarget*> find_target(const ExportOptions& options) {
                nearest.best()};
 }
 
-std::string learned_by(const Run& run) {
+/// Which of the run's seeds is wanted.
+Result<std::size_t> find_seed(const ExportOptions& options, const Run& run) {
+  if (options.seed.empty()) return std::size_t{0};
+  const auto seed = parse_count(options.seed);
+  const std::vector<Training>& trainings = run.trainings();
+  for (std::size_t i = 0; seed && i < trainings.size(); ++i) {
+    if (trainings[i].seed() == *seed) return i;
+  }
+  return Error{"--seed", 0, 0,
+               fmt::format("{} to {} expected, the seeds of this run, not '{}'",
+                           trainings.front().seed(), trainings.back().seed(), options.seed),
+               ""};
+}
+
+std::string learned_by(const Run& run, const Training& training) {
   const LearnSettings& learn = run.settings().learn;
-  const Training& first = run.trainings().front();
   return fmt::format("Learned by {}{}, discount {}, seed {}, {} steps.", learn.method,
                      run.entry().rule.empty() ? "" : ", " + rule_words(run.entry()),
-                     shortest(run.discount()), first.seed(),
-                     grouped(first.learner().progress().steps));
+                     shortest(run.discount()), training.seed(),
+                     grouped(training.learner().progress().steps));
 }
 
 /// What the head of the file says about the policy.
-Result<std::vector<std::string>> origin(const Run& run, const JudgedRun& judged) {
+Result<std::vector<std::string>> origin(const Run& run, const Training& training,
+                                        const JudgedRun& judged) {
   const JudgedSeed& seed = judged.seeds.front();
-  std::vector<std::string> lines{learned_by(run)};
+  std::vector<std::string> lines{learned_by(run, training)};
   const Optimality& judgement = seed.optimality;
   const std::string_view answer = !judgement.optimal   ? "not decided"
                                   : *judgement.optimal ? "yes"
@@ -102,55 +117,54 @@ struct Exported {
 };
 
 Result<std::string> policy_text(const ExportOptions& options, const ExportTarget& target,
-                                const Run& run) {
+                                const Run& run, std::size_t index) {
+  const Training& training = run.trainings()[index];
   const Result<std::shared_ptr<const Mdp>> states = listed(run.world());
   if (!states) return Error{run_file(options.run), 0, 0, states.error().expected, ""};
   PolicyExport policy;
   policy.mdp = states->get();
   policy.name = options.name.empty() ? run.world().name : options.name;
-  const Result<JudgedRun> judged = judge_run(run, 1);
+  const Result<JudgedRun> judged = judge_run(run, index, 1);
   std::vector<Action> actions;
   if (judged) {
     actions = judged->seeds.front().policy;
-    const Result<std::vector<std::string>> lines = origin(run, *judged);
+    const Result<std::vector<std::string>> lines = origin(run, training, *judged);
     if (!lines) return lines.error();
     policy.origin = *lines;
   } else {
-    actions = greedy_policy(run.trainings().front().learner().estimates());
-    policy.origin = {learned_by(run), run.world().mdp
-                                          ? "No certificate: " + message(judged.error()) + "."
-                                          : "No certificate: the model is not known."};
+    actions = greedy_policy(training.learner().estimates());
+    policy.origin = {learned_by(run, training),
+                     run.world().mdp ? "No certificate: " + message(judged.error()) + "."
+                                     : "No certificate: the model is not known."};
   }
   policy.policy = actions;
   return target.policy(policy);
 }
 
 Result<std::string> network_text(const ExportOptions& options, const ExportTarget& target,
-                                 const Run& run, std::shared_ptr<const LearnedNetwork> network) {
-  Result<NetworkExport> what = network_export(run.world(), std::move(network));
+                                 const Run& run, const Training& training) {
+  Result<NetworkExport> what = network_export(run.world(), training.learner().network());
   if (!what) {
     return Error{run_file(options.run), 0, 0, "not exported: " + what.error().expected, ""};
   }
   if (!options.name.empty()) what->name = options.name;
   what->method = run.settings().learn.method;
   what->discount = run.discount();
-  what->origin = {learned_by(run)};
+  what->origin = {learned_by(run, training)};
   return target.network(*what);
 }
 
 /// Why this run cannot be written so, and how it can; "" = it can.
-std::string refused(const Run& run, const ExportTarget& target, bool network) {
+std::string refused(const Run& run, const Training& training, const ExportTarget& target) {
   const std::string missing = no_table(run);
-  const LearnProgress::Halt halt = run.trainings().front().learner().progress().halt;
+  const bool network = training.learner().network() != nullptr;
+  const LearnProgress::Halt halt = training.learner().progress().halt;
   if (network && halt == LearnProgress::Halt::diverged) {
     return "its values have left every bound";
   }
   if (network && target.network != nullptr) return "";
   if (missing.empty() && target.policy != nullptr) return "";
   const std::string& method = run.settings().learn.method;
-  if (missing.empty() && run.entry().traits.networks) {
-    return "its network reads letters of names, which no such file tells of; --inputs auto";
-  }
   if (missing.empty()) {
     return fmt::format(
         "{} learned a table, no network; --to c, json, csv or moves expected, not '{}'", method,
@@ -167,13 +181,15 @@ Result<Exported> exported(const ExportOptions& options, const ExportTarget& targ
   if (!run) return run.error();
   const std::string reason = unsound(*run);
   if (!reason.empty()) return Error{file, 0, 0, "not exported: " + reason, ""};
-  const auto network = run->trainings().front().learner().network();
-  const std::string refusal = refused(*run, target, network != nullptr);
+  const Result<std::size_t> index = find_seed(options, *run);
+  if (!index) return index.error();
+  const Training& training = run->trainings()[*index];
+  const std::string refusal = refused(*run, training, target);
   if (!refusal.empty()) return Error{file, 0, 0, "not exported: " + refusal, ""};
   // Where states are numbered a table says it all.
   const bool as_policy = target.policy != nullptr && no_table(*run).empty();
-  Result<std::string> text =
-      as_policy ? policy_text(options, target, *run) : network_text(options, target, *run, network);
+  Result<std::string> text = as_policy ? policy_text(options, target, *run, *index)
+                                       : network_text(options, target, *run, training);
   if (!text) return text.error();
   return Exported{std::move(*text), run->source().name};
 }
@@ -203,6 +219,7 @@ void declare_export(Options& options) {
                  "what to write; moves: x,y,state,move of a grid; onnx, safetensors: a network; "
                  "without: by the name of -o");
   options.option("-o,--output", &given->file, "FILE", "the file to write; without: on stdout");
+  options.option("--seed", &given->seed, "N", "which of the run's seeds; without: the first one");
   options.option("--name", &given->name, "NAME",
                  "what the C names begin with; without: the world's name");
   options.run([given] { return export_run(*given); });

@@ -32,7 +32,7 @@ std::string no_table(const Run& run) {
          "a run, and show its curve";
 }
 
-Result<JudgedRun> judge_run(const Run& run, std::size_t most) {
+Result<JudgedRun> judge_run(const Run& run, std::size_t begin, std::size_t count) {
   const Mdp* mdp = run.world().mdp.get();
   if (mdp == nullptr) {
     return Error{"", 0, 0, "no certificate: the model of " + run.world().name + " is not known",
@@ -48,7 +48,8 @@ Result<JudgedRun> judge_run(const Run& run, std::size_t most) {
   Result<Verdict> verdict = verify(*mdp, exact->lower, exact->upper, exact->policy, run.discount());
   if (!verdict) return verdict.error();
   JudgedRun judged{std::move(*exact), std::move(*verdict), {}};
-  for (std::size_t i = 0; i < std::min(most, run.trainings().size()); ++i) {
+  const std::size_t end = begin + std::min(count, run.trainings().size() - begin);
+  for (std::size_t i = begin; i < end; ++i) {
     const Training& training = run.trainings()[i];
     JudgedSeed seed;
     seed.seed = training.seed();

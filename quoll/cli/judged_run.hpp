@@ -38,8 +38,8 @@ struct JudgedRun {
 };
 
 /// Solves the run's model once, has the answer checked independently, and judges the policies of
-/// its first `most` seeds on the states reachable from its starts. Error: no model, values not
-/// defined, or a setting that does not resolve.
-Result<JudgedRun> judge_run(const Run& run, std::size_t most);
+/// `count` of its seeds, from the one at `begin` on, on the states reachable from its starts.
+/// Error: no model, values not defined, or a setting that does not resolve.
+Result<JudgedRun> judge_run(const Run& run, std::size_t begin, std::size_t count);
 
 }  // namespace quoll::cli

@@ -37,7 +37,7 @@ Result<Outcome> examine(const Run& run) {
   Outcome outcome;
   outcome.refusal = unsound(run);
   if (!outcome.refusal.empty()) return outcome;
-  Result<JudgedRun> judged = judge_run(run, run.trainings().size());
+  Result<JudgedRun> judged = judge_run(run, 0, run.trainings().size());
   if (!judged) return judged.error();
   if (!judged->verdict.accepted) {
     outcome.refusal = "the bounds do not hold: " + judged->verdict.reason;

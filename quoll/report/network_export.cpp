@@ -5,6 +5,7 @@
 
 #include "quoll/base/json.hpp"
 #include "quoll/base/text.hpp"
+#include "quoll/base/utf8.hpp"
 #include "quoll/env/listed.hpp"
 #include "quoll/experiment/evaluation.hpp"
 
@@ -59,6 +60,29 @@ void count_states(NetworkExport& out, std::uint32_t states) {
   for (std::size_t i = 0; i < out.vectors.count; ++i) {
     out.vectors.states.push_back(static_cast<State>(
         states <= most_vectors ? i : i * (std::size_t{states} - 1) / (most_vectors - 1)));
+  }
+}
+
+// Of states spread over all in which somebody acts; what inputs and outputs are called.
+void spell(NetworkExport& out, const Mdp& mdp) {
+  const NameLetters& letters = *out.network->letters;
+  for (const auto& [letter, place] : letters.letters()) {
+    std::string name;
+    encode(letter, name);
+    out.numbers.push_back(name + " " + std::to_string(place));
+  }
+  for (const std::string& name : letters.output_names()) out.actions.push_back(name);
+  std::vector<State> acting;
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (!mdp.terminal(s)) acting.push_back(s);
+  }
+  out.vectors.count = std::min(most_vectors, acting.size());
+  out.vectors.observations.assign(out.vectors.count * letters.size(), 0.0F);
+  for (std::size_t i = 0; i < out.vectors.count; ++i) {
+    const State s = acting[i * acting.size() / out.vectors.count];
+    for (const std::uint32_t spot : letters.of(s)) {
+      out.vectors.observations[i * letters.size() + spot] = 1.0F;
+    }
   }
 }
 
@@ -131,15 +155,20 @@ Result<NetworkExport> network_export(const World& world,
   out.network = std::move(network);
   out.world = out.name = world.name;
   for (const Measured& number : world.measured) out.numbers.emplace_back(number.name);
-  if (out.network->numbered) {
+  const bool spelled = out.network->letters != nullptr;
+  if (out.network->numbered || spelled) {
     const Result<std::shared_ptr<const Mdp>> states = listed(world);
     if (!states) return states.error();
-    out.states = *states;
-    count_states(out, out.network->observed.channels);
+    if (spelled) {
+      spell(out, **states);
+    } else {
+      out.states = *states;
+      count_states(out, out.network->observed.channels);
+    }
   } else {
     observe(world, out);
   }
-  name_actions(world, out);
+  if (!spelled) name_actions(world, out);
   value(out);
   if (!finite(out.network->network) || !finite(out.vectors.q)) {
     return Error{"", 0, 0, "a number of this network is not finite: it has diverged", ""};

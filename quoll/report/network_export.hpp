@@ -30,7 +30,8 @@ struct NetworkExport {
   std::string method;  ///< that it was learned with; empty = not told
   double discount = 1.0;
   std::vector<std::string> origin;    ///< sentences for the head of the file, one line each
-  std::vector<std::string> numbers;   ///< what the observed numbers are called; empty = not told
+  std::vector<std::string> numbers;   ///< what the observed numbers are called; empty = not told.
+                                      ///< Letters of names: the letter and its place, from 0 on
   std::vector<std::string> actions;   ///< their names; empty where they differ from state to state
   std::shared_ptr<const Mdp> states;  ///< of numbered states: names of states and their actions
   /// Of numbered states: how many actions each has; empty if they all have as many.
@@ -39,8 +40,8 @@ struct NetworkExport {
 };
 
 /// Everything but method, discount and origin, with the vectors: of up to 32 numbered states spread
-/// over all, or of 32 moments of uniform play. Error: a number of the network is not finite, or its
-/// states cannot be listed.
+/// over all, as their numbers or letters, or of 32 moments of uniform play. Error: a number of the
+/// network is not finite, or its states cannot be listed.
 Result<NetworkExport> network_export(const World& world,
                                      std::shared_ptr<const LearnedNetwork> network);
 
@@ -67,8 +68,9 @@ void each_layer(const nn::PlainNetwork& network, const Use& use) {
 
 /// An ONNX model (operator set 13, so that every runtime of today reads it): input "observation"
 /// [batch, numbers] or [batch, height, width, channels] as the world shows it, or "state" [batch];
-/// outputs "q" [batch, actions] and "action" [batch], the best one that the state has. The facts
-/// are its metadata, the vectors among them as "self_test".
+/// outputs "q" [batch, actions] and "action" [batch], the best one that the state has; of letters
+/// of names only "q", since they do not tell which actions those are. The facts are its metadata,
+/// the vectors among them as "self_test".
 std::string network_onnx(const NetworkExport& what);
 
 /// A header for C99 and C++: NAME_q(observation, q) and NAME_act(observation). Compiled with

@@ -32,8 +32,10 @@ class NetworkGraph {
     const std::string outputs = combine(heads(body(read)));
     std::string q = network_.value_scale == 1.0 ? means(outputs, "q") : scaled(means(outputs, ""));
     graph_.output("q", OnnxGraph::Element::real, {-1, network_.actions});
-    choose(q);
-    graph_.output("action", OnnxGraph::Element::whole, {-1});
+    if (!network_.letters) {
+      choose(q);
+      graph_.output("action", OnnxGraph::Element::whole, {-1});
+    }
     return std::move(graph_);
   }
 

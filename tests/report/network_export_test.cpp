@@ -75,6 +75,12 @@ std::vector<Learned> all() {
          s.deep.lowest_return = -50;
          s.deep.highest_return = 0;
        }},
+      {"tic-tac-toe", [](LearnSettings& s) { s.deep.inputs = Scaling::letters; }},
+      {"tic-tac-toe",
+       [](LearnSettings& s) {
+         s.deep.inputs = Scaling::letters;
+         s.deep.layout = NetworkLayout::joint;
+       }},
       {"mountain-car",
        [](LearnSettings& s) {
          s.deep.layout = NetworkLayout::joint;
@@ -153,6 +159,10 @@ TEST(NetworkExport, OnnxGivesTheQThatQuollFound) {
     const auto values = model.compute(input_of(what), batch(what));
     const std::string which = "network " + std::to_string(i);
     expect_q(values.at("q").data, what.vectors.q, which);
+    if (what.network->letters) {
+      EXPECT_EQ(values.count("action"), 0u) << which;
+      continue;
+    }
     // The first best action of those that the state has.
     const std::size_t actions = what.network->actions;
     for (std::size_t row = 0; row < what.vectors.count; ++row) {
@@ -252,6 +262,35 @@ TEST(NetworkExport, OnnxSaysWhatItIs) {
   EXPECT_EQ(numbered.declared(11, 0), "state 7 batch");
   EXPECT_EQ(numbered.fact("states"), R"(["GATE","HALL","POOL","CAVE","WELL","GOAL"])");
   EXPECT_EQ(numbered.fact("actions").substr(0, 36), R"([["To-POOL"],["To-CAVE","To-POOL"],[)");
+}
+
+// Of letters every input says which, and every output whose it is.
+TEST(NetworkExport, LettersSayWhatTheyAre) {
+  const NetworkExport what =
+      learned({"tic-tac-toe", [](LearnSettings& s) { s.deep.inputs = Scaling::letters; }});
+  const World world = *find_world("tic-tac-toe");
+  ASSERT_EQ(what.numbers.size(), what.network->observed.size());
+  ASSERT_EQ(what.actions.size(), what.network->actions);
+  // A row of the vectors spells the name of a state, one letter at each place that tells something.
+  const std::size_t row = what.numbers.size();
+  for (std::size_t i = 0; i < what.vectors.count; ++i) {
+    std::string name(20, ' ');
+    for (std::size_t k = 0; k < row; ++k) {
+      if (what.vectors.observations[i * row + k] == 0.0F) continue;
+      const std::string& number = what.numbers[k];
+      name[std::stoul(number.substr(number.find(' ') + 1))] = number[0];
+    }
+    std::size_t fitting = 0;
+    for (State s = 0; s < world.mdp->states(); ++s) {
+      const std::string full = world.mdp->state_name(s);
+      bool fits = !world.mdp->terminal(s);
+      for (std::size_t k = 0; k < name.size() && fits; ++k) {
+        fits = name[k] == ' ' || (k < full.size() && full[k] == name[k]);
+      }
+      fitting += fits;
+    }
+    EXPECT_EQ(fitting, 1u) << name;
+  }
 }
 
 TEST(NetworkExport, WhatIsNotFiniteIsRefused) {

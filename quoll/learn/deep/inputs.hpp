@@ -54,12 +54,18 @@ class Inputs {
       } else {
         out[state] = 1.0F;
       }
-    } else if (scale_.empty()) {
-      std::copy(observation.begin(), observation.end(), out.begin());
     } else {
-      for (std::size_t i = 0; i < out.size(); ++i) {
-        out[i] = (observation[i] - middle_[i]) * scale_[i];
-      }
+      read(observation, out);
+    }
+  }
+  /// Writes size() floats for as many that were observed, or that letters gave.
+  void read(std::span<const float> observation, std::span<float> out) const {
+    if (scale_.empty()) {
+      std::copy(observation.begin(), observation.end(), out.begin());
+      return;
+    }
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i] = (observation[i] - middle_[i]) * scale_[i];
     }
   }
   /// The same for a lane of columns.

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "quoll/learn/deep/deep_settings.hpp"
+#include "quoll/learn/deep/name_letters.hpp"
 #include "quoll/model/mdp.hpp"
 #include "quoll/nn/plain.hpp"
 
@@ -16,6 +18,8 @@ namespace quoll {
 struct LearnedNetwork {
   nn::Extent observed;    ///< what is shown: numbers, planes, or 1 x 1 x states if `numbered`
   bool numbered = false;  ///< a state's number is read as one 1 among zeros
+  /// What is observed are the letters of a state's name, and outputs are those of actions' names.
+  std::shared_ptr<const NameLetters> letters;
   std::vector<float> middle, scale;  ///< reads (x - middle) * scale; empty: x as it is
   /// Of layout joint it reads that, and then one 1 among zeros for the action.
   nn::PlainNetwork network;

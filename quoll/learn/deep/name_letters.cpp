@@ -53,7 +53,9 @@ Result<std::shared_ptr<const NameLetters>> NameLetters::make(const World& world,
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const bool tells = inputs[i].size() > 1 || long_enough[i] < names;
     for (auto& [letter, input] : inputs[i]) {
-      if (tells) input = static_cast<std::uint32_t>(letters->size_++);
+      if (!tells) continue;
+      input = static_cast<std::uint32_t>(letters->letters_.size());
+      letters->letters_.push_back({letter, i});
     }
   }
   for (State s = 0; s < mdp.states(); ++s) {
@@ -66,7 +68,7 @@ Result<std::shared_ptr<const NameLetters>> NameLetters::make(const World& world,
     }
   }
   letters->begin_.push_back(letters->spots_.size());
-  if (letters->size_ == 0) {
+  if (letters->letters_.empty()) {
     return Error{"--inputs", 0, 0, world.name + " has one state to act in: its name tells nothing",
                  "auto"};
   }
@@ -82,13 +84,14 @@ void NameLetters::name_outputs(const Mdp& mdp) {
     row_begin_.push_back(output_.size());
     most = std::max<std::size_t>(most, mdp.actions(s));
     for (Action a = 0; a < mdp.actions(s); ++a) {
-      const auto next = static_cast<Action>(outputs.size());
-      output_.push_back(
-          outputs.emplace(mdp.action_name(mdp.choice_begin(s) + a), next).first->second);
+      const std::string name = mdp.action_name(mdp.choice_begin(s) + a);
+      const auto [known, is_new] = outputs.emplace(name, static_cast<Action>(outputs.size()));
+      if (is_new) output_names_.push_back(name);
+      output_.push_back(known->second);
     }
   }
   row_begin_.push_back(output_.size());
-  outputs_ = std::max(outputs.size(), most);
+  output_names_.resize(std::max(output_names_.size(), most));
 }
 
 }  // namespace quoll

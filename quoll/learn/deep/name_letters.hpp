@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "quoll/base/error.hpp"
@@ -21,14 +22,24 @@ class NameLetters {
   /// names, once.
   static Result<std::shared_ptr<const NameLetters>> make(const World& world, const Spaces& spaces);
 
+  /// What an input is 1 for: this letter at this place of a name, counted from 0.
+  struct Letter {
+    char32_t letter;
+    std::size_t place;
+  };
+
   /// Number of inputs.
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return letters_.size(); }
+  /// Of each input.
+  std::span<const Letter> letters() const { return letters_; }
   /// The inputs that are 1 for a state, ascending; all others are 0.
   std::span<const std::uint32_t> of(std::uint64_t state) const {
     return std::span(spots_).subspan(begin_[state], begin_[state + 1] - begin_[state]);
   }
   /// Number of outputs, and that of an action as the state numbers it.
-  std::size_t outputs() const { return outputs_; }
+  std::size_t outputs() const { return output_names_.size(); }
+  /// Of each output the actions' name; empty for those that no action has.
+  std::span<const std::string> output_names() const { return output_names_; }
   /// In an end, which lists none, any action may be told of; it is its own.
   Action output(State state, Action action) const {
     const std::uint64_t pair = row_begin_[state] + action;
@@ -38,7 +49,8 @@ class NameLetters {
  private:
   void name_outputs(const Mdp& mdp);
 
-  std::size_t size_ = 0, outputs_ = 0;
+  std::vector<Letter> letters_;
+  std::vector<std::string> output_names_;
   std::vector<Action> output_;            // per pair
   std::vector<std::uint64_t> row_begin_;  // of them, per state
   std::vector<std::uint32_t> spots_;

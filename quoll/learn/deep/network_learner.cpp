@@ -165,11 +165,11 @@ Estimates NetworkLearner::estimates() const {
 }
 
 std::shared_ptr<const LearnedNetwork> NetworkLearner::network() const {
-  // Letters of names are nothing that LearnedNetwork tells of.
-  if (q_->network() == nullptr || deep_.letters) return nullptr;
+  if (q_->network() == nullptr) return nullptr;
   auto out = std::make_shared<LearnedNetwork>();
   out->observed = deep_.input;
-  out->numbered = inputs_.numbered();
+  out->numbered = inputs_.numbered() && !deep_.letters;
+  out->letters = deep_.letters;
   out->middle.assign(inputs_.middle().begin(), inputs_.middle().end());
   out->scale.assign(inputs_.scale().begin(), inputs_.scale().end());
   out->network = nn::plain(*q_->network(), q_->weights());
@@ -186,7 +186,11 @@ std::shared_ptr<const LearnedNetwork> NetworkLearner::network() const {
   out->values = [q, inputs = inputs_, mean = distribution_, scale = out->value_scale](
                     State state, std::span<const float> observation, std::span<float> values) {
     nn::Floats row(inputs.size()), outputs(q->actions() * q->atoms());
-    inputs.write(state, observation, row.span());
+    if (observation.empty()) {
+      inputs.write(state, observation, row.span());
+    } else {
+      inputs.read(observation, row.span());
+    }
     q->values(QFunction::Weights::online, row.data(), 1, outputs.data());
     for (std::size_t a = 0; a < values.size(); ++a) {
       const float value = mean.mean(outputs.span().subspan(a * q->atoms(), q->atoms()));
