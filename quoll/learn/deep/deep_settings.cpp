@@ -35,7 +35,9 @@ void DeepSettings::describe_network(Describer& d) {
   batched("clip_gradient", clip_gradient, -1, 1e300,
           "largest norm of a gradient; 0 = any, -1 = the method's");
   d.of("dqn, distil")("batch", batch, 0, 65536, "transitions of an update; 0 = the method's");
-  networks("reward_scale", reward_scale, 1e-9, 1e9, "what rewards are multiplied by to learn");
+  networks("reward_scale", reward_scale, 0, 1e9,
+           "what rewards are multiplied by to learn; 0 = 1, or what makes the largest 1 where the "
+           "world declares only rewards below 0.01, or some above 1000");
 }
 
 void DeepSettings::describe_methods(Describer& d) {

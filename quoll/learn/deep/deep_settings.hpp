@@ -46,7 +46,7 @@ struct DeepSettings {
   std::string loss = "auto";
   double clip_gradient = -1.0;
   std::uint64_t batch = 0;
-  double reward_scale = 1.0;
+  double reward_scale = 0.0;
 
   // dqn
   std::uint64_t replay = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 
 #include "quoll/base/text.hpp"
@@ -141,6 +142,15 @@ void fill_in(DeepSettings& settings, const DeepHabits& habits, bool observed) {
   if (settings.clip_gradient < 0.0) settings.clip_gradient = habits.clip_gradient;
 }
 
+// Networks learn best what is about as large as 1. Ranges of distributions are as they are said.
+double usual_scale(const DeepSettings& settings, const World& world) {
+  if (!world.traits.reward_bounds || settings.returns == Returns::categorical) return 1.0;
+  const auto [low, high] = *world.traits.reward_bounds;
+  const double largest = std::max(std::fabs(low), std::fabs(high));
+  constexpr double small = 0.01, large = 1000.0;
+  return largest > 0.0 && (largest < small || largest > large) ? 1.0 / largest : 1.0;
+}
+
 // A row of numbers, planes, or one number for each state.
 nn::Extent input_of(const Spaces& spaces) {
   if (spaces.shape[0] > 0) return {spaces.shape[0], spaces.shape[1], spaces.shape[2]};
@@ -225,6 +235,9 @@ Result<DeepSetup> DeepSetup::make(const LearnSetup& setup, const DeepHabits& hab
   const DeepSettings& settings = deep.settings = setup.deep;
   if (const auto found = find_input(deep, setup, habits); !found) return found.error();
   fill_in(deep.settings, habits, deep.spaces.observation > 0);
+  if (settings.reward_scale == 0.0) {
+    deep.settings.reward_scale = usual_scale(settings, *setup.world);
+  }
   auto hidden = layers(settings, deep.spaces, habits);
   if (!hidden) return hidden.error();
   deep.hidden = std::move(*hidden);
