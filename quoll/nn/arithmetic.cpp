@@ -9,6 +9,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "quoll/nn/bits.inl"
 #include "quoll/nn/elementwise.inl"
 #include "quoll/nn/normalisation.inl"
 #include "quoll/nn/product.inl"
@@ -39,6 +40,8 @@ const Arithmetic* functions() {
                                      .column_sums = column_sums,
                                      .normalise = normalise,
                                      .normalise_back = normalise_back,
+                                     .pack = pack,
+                                     .unpack = unpack,
                                      .find_spots = find_spots,
                                      .sparse_forward = sparse_forward,
                                      .sparse_back = sparse_back,

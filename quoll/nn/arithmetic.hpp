@@ -110,6 +110,11 @@ struct Arithmetic {
   void (*normalise_back)(Rows shape, const float* normalised, const float* scales,
                          const float* gain, float* gradient, float* gain_gradient,
                          float* shift_gradient);
+  /// Writes whether x is not 0 as bits, 64 in each word, the lowest first; whether every x is 0 or
+  /// 1. n is any number.
+  bool (*pack)(const float* x, std::size_t n, std::uint64_t* words);
+  /// Writes each of n bits as 0 or 1.
+  void (*unpack)(const std::uint64_t* words, std::size_t n, float* x);
   /// Writes where x is not 0, at most `most` of them: how many, or most + 1 if there are more. n is
   /// any number.
   std::size_t (*find_spots)(const float* x, std::size_t n, std::uint32_t* at, std::size_t most);

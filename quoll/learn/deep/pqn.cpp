@@ -19,6 +19,7 @@
 #include <numeric>
 
 #include "quoll/learn/deep/choose.hpp"
+#include "quoll/learn/deep/frames.hpp"
 #include "quoll/learn/deep/learners.hpp"
 #include "quoll/learn/deep/network_learner.hpp"
 #include "quoll/learn/deep/q_network.hpp"
@@ -43,7 +44,7 @@ class Pqn final : public NetworkLearner {
         how_(deep_.settings),
         steps_(how_.rollout * walkers_.count()),
         shuffle_(stream(setup.seed, "shuffle")),
-        seen_(steps_ * inputs_.size()),
+        seen_(deep.spaces, steps_),
         chosen_(steps_),
         rewards_(steps_),
         carries_(steps_),
@@ -57,7 +58,8 @@ class Pqn final : public NetworkLearner {
         predicted_(part_),
         slopes_(part_),
         row_(inputs_.size()),
-        row_outputs_(actions_) {}
+        row_outputs_(actions_),
+        observation_(deep.spaces.observation) {}
 
  private:
   void round() override;
@@ -74,7 +76,7 @@ class Pqn final : public NetworkLearner {
   std::uint64_t begun_ = 0;  // steps of the run before this iteration
   Rng shuffle_;
   // Per step t and lane, at t * lanes + lane:
-  nn::Floats seen_;
+  Frames seen_;
   std::vector<Action> chosen_;
   std::vector<float> rewards_, carries_;
   std::vector<std::uint8_t> over_;
@@ -85,6 +87,7 @@ class Pqn final : public NetworkLearner {
   nn::Floats inputs_part_;
   std::vector<Action> chosen_part_;
   nn::Floats predicted_, slopes_, row_, row_outputs_;
+  std::vector<float> observation_;
 };
 
 void Pqn::round() {
@@ -107,10 +110,12 @@ float Pqn::value_of_next(std::size_t lane) {
 // 1
 void Pqn::walk() {
   const std::size_t lanes = walkers_.count(), first = at_ * lanes;
+  const std::size_t numbers = deep_.spaces.observation;
+  const Experience& now = walkers_.now();
   choose_actions(true);
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const std::size_t i = first + lane;
-    std::copy_n(inputs_of(lane).data(), inputs_.size(), seen_.data() + i * inputs_.size());
+    seen_.write(i, now.state[lane], now.observation.subspan(lane * numbers, numbers));
     const std::span<const float> q =
         outputs_.span().subspan(lane * actions_, walkers_.actions_now(lane));
     values_[i] = q[greedy(q)];
@@ -118,8 +123,8 @@ void Pqn::walk() {
   walkers_.step();
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const std::size_t i = first + lane;
-    const Feedback& feedback = walkers_.now().feedback[lane];
-    chosen_[i] = output_of(walkers_.now().state[lane], walkers_.now().action[lane]);
+    const Feedback& feedback = now.feedback[lane];
+    chosen_[i] = output_of(now.state[lane], now.action[lane]);
     rewards_[i] = static_cast<float>(feedback.reward * how_.reward_scale);
     carries_[i] = carry_of(feedback.terminated, feedback.turn_passes);
     over_[i] = feedback.over();
@@ -162,7 +167,8 @@ void Pqn::learn() {
 void Pqn::learn_from(std::span<const std::uint32_t> steps) {
   const std::size_t size = inputs_.size();
   for (std::size_t k = 0; k < steps.size(); ++k) {
-    std::copy_n(seen_.data() + steps[k] * size, size, inputs_part_.data() + k * size);
+    const State state = seen_.read(steps[k], observation_);
+    inputs_.write(state, observation_, inputs_part_.span().subspan(k * size, size));
     chosen_part_[k] = chosen_[steps[k]];
   }
   q_->predict(inputs_part_.data(), steps.size(), chosen_part_.data(), predicted_.data());
@@ -182,7 +188,7 @@ void Pqn::persist_own(Archive& archive) {
   archive("at", at_);
   archive("begun", begun_);
   archive("shuffle", shuffle_);
-  nn::persist_floats(archive, "seen", seen_);
+  seen_.persist(archive);
   std::span<Action> chosen = chosen_;
   std::span<float> rewards = rewards_, carries = carries_, values = values_, returns = returns_;
   std::span<std::uint8_t> over = over_;
@@ -192,7 +198,7 @@ void Pqn::persist_own(Archive& archive) {
   archive("over", over);
   archive("values", values);
   archive("returns", returns);
-  bool fits = at_ < how_.rollout;
+  bool fits = at_ < how_.rollout && seen_.size() == steps_ && seen_.fits();
   for (const Action action : chosen_) fits &= action < actions_;
   if (fits) return;
   at_ = 0;

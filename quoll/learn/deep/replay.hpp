@@ -9,6 +9,7 @@
 
 #include "quoll/base/archive.hpp"
 #include "quoll/env/environment.hpp"
+#include "quoll/learn/deep/frames.hpp"
 #include "quoll/model/experience.hpp"
 
 namespace quoll {
@@ -52,11 +53,12 @@ class Replay {
   /// What was seen before a transition, or after it: the number of the state, or the observation
   /// (written to `observation`).
   State before(std::uint64_t slot, std::span<float> observation) const {
-    return read(slot, observation);
+    return frames_.read(slot, observation);
   }
   State next(std::uint64_t slot, std::span<float> observation) const {
-    return read(over(slot) ? aside_[slot] : slot / ring_ * ring_ + (slot % ring_ + 1) % ring_,
-                observation);
+    const std::uint64_t frame =
+        over(slot) ? aside_[slot] : slot / ring_ * ring_ + (slot % ring_ + 1) % ring_;
+    return frames_.read(frame, observation);
   }
 
   void persist(Archive& archive);
@@ -65,25 +67,16 @@ class Replay {
   static constexpr std::uint8_t terminated_flag = 1, truncated_flag = 2, turn_flag = 4;
   static constexpr std::uint8_t over_flags = terminated_flag | truncated_flag;
 
-  void write(std::uint64_t frame, State state, std::span<const float> observation);
-  State read(std::uint64_t frame, std::span<float> observation) const;
   std::uint64_t frame_aside();
-  void make_frames(std::uint64_t count);
-  void unpack();
 
   std::uint32_t observation_ = 0;
-  bool bits_ = false;
   std::uint64_t lanes_ = 1, ring_ = 2;   // ring_ - 1 transitions of each lane are remembered
   std::uint64_t head_ = 0, filled_ = 0;  // the place of the next push; transitions of a lane
   std::vector<Action> action_;           // per slot, as what follows
   std::vector<float> reward_;
   std::vector<std::uint8_t> flags_;
   std::vector<std::uint64_t> aside_;
-  // Frames: one for each slot, then those aside.
-  std::uint64_t frames_ = 0;
-  std::vector<State> states_;
-  std::vector<float> floats_;
-  std::vector<std::uint64_t> words_;
+  Frames frames_;                    // one for each slot, then those aside
   std::vector<std::uint64_t> free_;  // frames aside that nobody needs
 };
 
