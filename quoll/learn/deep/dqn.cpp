@@ -28,6 +28,7 @@
 #include <optional>
 
 #include "quoll/base/math.hpp"
+#include "quoll/learn/deep/known_values.hpp"
 #include "quoll/learn/deep/learners.hpp"
 #include "quoll/learn/deep/network_learner.hpp"
 #include "quoll/learn/deep/q_network.hpp"
@@ -65,6 +66,8 @@ class Dqn final : public NetworkLearner {
         asked_(batch_),
         here_states_(batch_),
         next_states_(batch_),
+        frames_(batch_),
+        next_frames_(batch_),
         targets_of_(how_, distribution_, actions_),
         seen_(deep.spaces.observation),
         before_(batch_ * inputs_.size()),
@@ -76,16 +79,25 @@ class Dqn final : public NetworkLearner {
         targets_(predicted_.size()),
         slopes_(predicted_.size()) {
     if (how_.prioritised) priorities_.emplace(replay_.slots());
+    // Many numbers a frame would take more memory than what was seen.
+    const std::size_t row = actions_ * distribution_.atoms();
+    if (!how_.noisy && how_.target_share >= 1.0 && row <= most_known) known_.emplace(row);
+    unknown_.reserve(batch_);
+    unknown_inputs_ = nn::Floats(known_ ? before_.size() : 0);
+    unknown_values_ = nn::Floats(known_ ? values_.size() : 0);
   }
 
  private:
   using Weights = QFunction::Weights;
+  static constexpr std::size_t most_known = 64;
 
   void round() override;
   void persist_own(Archive& archive) override;
   void remember();
   void draw();
   void gather(std::size_t i);
+  void ask_target(std::span<const std::uint64_t> frames, const nn::Floats& inputs,
+                  nn::Floats& values);
   void find_targets();
   void update();
 
@@ -99,11 +111,15 @@ class Dqn final : public NetworkLearner {
   std::vector<float> rewards_, carries_, weights_;
   std::vector<Action> chosen_, asked_;  // as s numbers them, as the network does
   std::vector<State> here_states_, next_states_;
+  std::vector<std::uint64_t> frames_, next_frames_;
   Targets targets_of_;
   std::vector<float> seen_;
   nn::Floats before_, after_;  // inputs of s and s'
   nn::Floats values_, online_values_, own_values_;
   nn::Floats predicted_, targets_, slopes_;
+  std::optional<KnownValues> known_;  // of Q', where it stays the same between two copies
+  std::vector<std::size_t> unknown_;  // rows of the batch that it has to be asked
+  nn::Floats unknown_inputs_, unknown_values_;
 };
 
 // How many multiples of `every` lie in (from, to].
@@ -125,13 +141,19 @@ void Dqn::round() {
     for (std::uint64_t i = 0; i < times; ++i) update();
   }
   // 8
-  if (crossed(begun, now, how_.target_every) > 0) q_->sync(how_.target_share);
+  if (crossed(begun, now, how_.target_every) == 0) return;
+  q_->sync(how_.target_share);
+  if (known_) known_->forget_all();
 }
 
 void Dqn::remember() {
   replay_.push(walkers_.now());
-  if (!priorities_) return;
   for (std::uint32_t lane = 0; lane < walkers_.count(); ++lane) {
+    if (known_) {
+      known_->forget(replay_.frame_before(replay_.newest(lane)));
+      known_->forget(replay_.frame_after(replay_.newest(lane)));
+    }
+    if (!priorities_) continue;
     priorities_->set(replay_.newest(lane), largest_);
     priorities_->set(replay_.forgotten_next(lane), 0.0);
   }
@@ -173,18 +195,39 @@ void Dqn::gather(std::size_t i) {
   inputs_.write(state, seen_, before_.span().subspan(i * size, size));
   const State next = replay_.next(all.last, seen_);
   inputs_.write(next, seen_, after_.span().subspan(i * size, size));
+  frames_[i] = replay_.frame_before(slots_[i]);
+  next_frames_[i] = replay_.frame_after(all.last);
   asked_[i] = output_of(state, chosen_[i]);
   here_states_[i] = state;
   next_states_[i] = next;
 }
 
+// Q' of a batch; only what it was not asked since it changed goes through it.
+void Dqn::ask_target(std::span<const std::uint64_t> frames, const nn::Floats& inputs,
+                     nn::Floats& values) {
+  if (!known_) return q_->values(Weights::target, inputs.data(), batch_, values.data());
+  const std::size_t size = inputs_.size(), row = values.size() / batch_;
+  unknown_.clear();
+  for (std::size_t i = 0; i < batch_; ++i) {
+    if (known_->has(frames[i])) continue;
+    std::copy_n(inputs.data() + i * size, size, unknown_inputs_.data() + unknown_.size() * size);
+    unknown_.push_back(i);
+  }
+  q_->values(Weights::target, unknown_inputs_.data(), unknown_.size(), unknown_values_.data());
+  for (std::size_t k = 0; k < unknown_.size(); ++k) {
+    known_->keep(frames[unknown_[k]], unknown_values_.data() + k * row);
+  }
+  for (std::size_t i = 0; i < batch_; ++i) {
+    const std::span<const float> said = (*known_)[frames[i]];
+    std::copy_n(said.data(), row, values.data() + i * row);
+  }
+}
+
 // 5
 void Dqn::find_targets() {
   q_->redraw(Weights::target);
-  q_->values(Weights::target, after_.data(), batch_, values_.data());
-  if (how_.munchausen) {
-    q_->values(Weights::target, before_.data(), batch_, own_values_.data());
-  }
+  ask_target(next_frames_, after_, values_);
+  if (how_.munchausen) ask_target(frames_, before_, own_values_);
   if (how_.double_q) {
     q_->redraw(Weights::online);
     q_->values(Weights::online, after_.data(), batch_, online_values_.data());

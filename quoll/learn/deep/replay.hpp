@@ -56,9 +56,12 @@ class Replay {
     return frames_.read(slot, observation);
   }
   State next(std::uint64_t slot, std::span<float> observation) const {
-    const std::uint64_t frame =
-        over(slot) ? aside_[slot] : slot / ring_ * ring_ + (slot % ring_ + 1) % ring_;
-    return frames_.read(frame, observation);
+    return frames_.read(frame_after(slot), observation);
+  }
+  /// Where these lie: of two with one number it is the same, until push() writes there.
+  std::uint64_t frame_before(std::uint64_t slot) const { return slot; }
+  std::uint64_t frame_after(std::uint64_t slot) const {
+    return over(slot) ? aside_[slot] : slot / ring_ * ring_ + (slot % ring_ + 1) % ring_;
   }
 
   void persist(Archive& archive);

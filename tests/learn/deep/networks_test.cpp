@@ -339,6 +339,36 @@ TEST(Dqn, NoiseExploresAndIsContinued) {
   }
 }
 
+// What the target network said of a frame counts until either changes: a learner that goes on from
+// what is saved knows nothing of it, and learns the same.
+TEST(Dqn, ValuesOfTheTargetAreThoseItWouldSayNow) {
+  for (const World& world : {adventure(), corridor(5)}) {
+    for (const bool munchausen : {false, true}) {
+      LearnSettings settings = network("dqn");
+      settings.deep.munchausen = munchausen;
+      settings.deep.hidden = "8";
+      settings.deep.optimiser = "adam";
+      settings.deep.learning_rate = "0.002";
+      settings.deep.reward_scale = 0.01;
+      settings.deep.walkers = 2;
+      settings.deep.multi_step = 2;
+      settings.deep.replay = 60;
+      settings.deep.learning_starts = 10;
+      settings.deep.target_every = 500;
+      const auto whole = learner(settings, world);
+      whole->advance(1400, {});
+      auto part = learner(settings, world);
+      for (int cut = 0; cut < 100; ++cut) {
+        part->advance(14, {});
+        auto next = learner(settings, world);
+        ASSERT_NO_FATAL_FAILURE(resume(*part, *next));
+        part = std::move(next);
+      }
+      EXPECT_EQ(saved(*part), saved(*whole)) << world.name << " " << munchausen;
+    }
+  }
+}
+
 TEST(Dqn, DistributionsHaveTheRightMean) {
   const World world = adventure();
   for (const Returns returns : {Returns::categorical, Returns::quantile}) {
