@@ -16,6 +16,7 @@
 
 #include "learn/worlds.hpp"
 #include "quoll/base/parallel.hpp"
+#include "quoll/learn/deep/learned_network.hpp"
 #include "quoll/learn/readers.hpp"
 #include "quoll/nn/arithmetic.hpp"
 #include "quoll/solve/average_reward.hpp"
@@ -72,6 +73,62 @@ std::uint64_t learned(const LearnerEntry& entry, const World& world, const std::
     for (const double q : estimates.q) hash.add(q);
     for (const std::uint32_t visits : estimates.visits) hash.add(std::uint64_t{visits});
     for (const double reward : estimates.reward_estimate) hash.add(reward);
+  }
+  return hash.value;
+}
+
+// A switch of networks and what it is called.
+struct Switch {
+  std::string_view method, name;  // no method: every learner with a network
+  void (*turn)(DeepSettings&);
+};
+constexpr Switch switches[] = {
+    {"", "", [](DeepSettings&) {}},
+    {"", "--layout separate", [](DeepSettings& s) { s.layout = NetworkLayout::separate; }},
+    {"", "--layout joint", [](DeepSettings& s) { s.layout = NetworkLayout::joint; }},
+    {"dqn", "--double-q", [](DeepSettings& s) { s.double_q = true; }},
+    {"dqn", "--duelling", [](DeepSettings& s) { s.duelling = true; }},
+    {"dqn", "--prioritised", [](DeepSettings& s) { s.prioritised = true; }},
+    {"dqn", "--noisy", [](DeepSettings& s) { s.noisy = true; }},
+    {"dqn", "--returns categorical", [](DeepSettings& s) { s.returns = Returns::categorical; }},
+    {"dqn", "--returns quantile", [](DeepSettings& s) { s.returns = Returns::quantile; }},
+    {"dqn", "--munchausen", [](DeepSettings& s) { s.munchausen = true; }},
+    {"dqn", "rainbow", [](DeepSettings& s) {
+       s.double_q = s.duelling = s.prioritised = s.noisy = true;
+       s.multi_step = 3;
+       s.returns = Returns::categorical;
+     }}};
+
+void add_layer(Hash& hash, const nn::PlainLayer& layer) {
+  for (const std::vector<float>* const numbers :
+       {&layer.weights, &layer.bias, &layer.gain, &layer.shift}) {
+    for (const float number : *numbers) hash.add(double{number});
+  }
+}
+
+// What the network has become after some steps.
+std::uint64_t networked(const LearnerEntry& entry, const World& world, const Switch& one) {
+  Hash hash;
+  LearnSettings settings;
+  settings.method = entry.method;
+  settings.until_stable = false;
+  settings.deep.hidden = "16";
+  if (entry.method == "dqn") {
+    settings.deep.learning_starts = 100;
+    settings.deep.batch = 8;
+  }
+  if (entry.method == "nfq") settings.deep.fits = settings.deep.epochs = 2;
+  one.turn(settings.deep);
+  const auto learner = make_learner(settings, world);
+  if (!learner) return 1;  // a switch it does not have
+  const LearnProgress now = (*learner)->advance(1500, {});
+  hash.add(now.steps);
+  hash.add(now.return_sum);
+  const auto network = (*learner)->network();
+  if (!network) return 2;
+  for (const nn::PlainLayer& layer : network->network.body) add_layer(hash, layer);
+  for (const std::vector<nn::PlainLayer>& head : network->network.heads) {
+    for (const nn::PlainLayer& layer : head) add_layer(hash, layer);
   }
   return hash.value;
 }
@@ -186,6 +243,17 @@ std::vector<Part> parts_of(const std::vector<World>& all) {
     if (world.mdp && world.traits.states <= with_memory_up_to)
       part("average, horizon " + world.name, [&] { return asked_otherwise(world); });
     part("step " + world.name, [&] { return stepped(world); });
+    if (world.name != "slippery" && world.name != "cartpole" && world.name != "minatar-breakout") {
+      continue;
+    }
+    for (const LearnerEntry& entry : learners()) {
+      for (const Switch& one : switches) {
+        if (!entry.traits.networks || (!one.method.empty() && one.method != entry.method)) continue;
+        part(
+            "network " + world.name + " " + std::string(entry.method) + " " + std::string(one.name),
+            [&] { return networked(entry, world, one); });
+      }
+    }
   }
   return list;
 }

@@ -35,6 +35,7 @@ const Arithmetic* functions() {
                                      .fused = fused,
                                      .product = product,
                                      .transpose = transpose,
+                                     .exponentials = exponentials,
                                      .activate = activate,
                                      .slope = slope,
                                      .column_sums = column_sums,

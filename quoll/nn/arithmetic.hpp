@@ -96,6 +96,8 @@ struct Arithmetic {
   /// vector_width.
   void (*transpose)(const float* from, std::size_t rows, std::size_t columns, std::size_t from_row,
                     float* to, std::size_t to_row);
+  /// Each x, which is at most 0, becomes e^x.
+  void (*exponentials)(float* x, std::size_t n);
   void (*activate)(Activation kind, float* values, std::size_t n);
   /// gradient *= the derivative of the activation, told from its outputs.
   void (*slope)(Activation kind, const float* outputs, float* gradient, std::size_t n);

@@ -18,10 +18,12 @@
 HWY_BEFORE_NAMESPACE();
 namespace quoll::nn::HWY_NAMESPACE {
 
-// e^x - 1 for x <= 88, anything for larger ones: 2^n (e^r - 1) + (2^n - 1) with |r| <= log(2) / 2.
-HWY_INLINE Vector exponential_less_1(Vector x) {
+// e^x = 2^n + 2^n (e^r - 1) with |r| <= log(2) / 2, for x <= 88, anything for larger ones.
+struct Exponential {
+  Vector power, rest;  // 2^n, e^r - 1
+};
+HWY_INLINE Exponential exponential(Vector x) {
   const Wide d;
-  const Vector one = hn::Set(d, 1.0f);
   const Vector least = hn::Set(d, -87.0f);
   x = hn::IfThenElse(hn::Lt(x, least), least, x);
   // Added to 1.5 * 2^23 a float is rounded to a whole number n, which its lowest bits then hold.
@@ -37,8 +39,23 @@ HWY_INLINE Vector exponential_less_1(Vector x) {
   sum = hn::MulAdd(hn::Mul(r, r), sum, r);
   const hn::RebindToSigned<Wide> di;
   const auto bits = hn::ShiftLeft<23>(hn::Add(hn::BitCast(di, rounded), hn::Set(di, 127)));
-  const Vector power = hn::BitCast(d, bits);
-  return hn::MulAdd(sum, power, hn::Sub(power, one));
+  return {hn::BitCast(d, bits), sum};
+}
+
+HWY_INLINE Vector exponential_less_1(Vector x) {
+  const Exponential e = exponential(x);
+  return hn::MulAdd(e.rest, e.power, hn::Sub(e.power, hn::Set(Wide(), 1.0f)));
+}
+
+// Of what is below -87 0: there floats end.
+void exponentials(float* values, std::size_t n) {
+  const Wide d;
+  for (std::size_t i = 0; i < n; i += lanes) {
+    const Vector x = hn::LoadU(d, values + i);
+    const Exponential e = exponential(x);
+    const Vector power = hn::MulAdd(e.rest, e.power, e.power);
+    hn::StoreU(hn::IfThenZeroElse(hn::Lt(x, hn::Set(d, -87.0f)), power), d, values + i);
+  }
 }
 
 constexpr float leak = 0.01f;  // leaky_relu, below 0

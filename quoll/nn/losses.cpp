@@ -1,44 +1,53 @@
 #include "quoll/nn/losses.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "quoll/base/math.hpp"
+#include "quoll/nn/arithmetic.hpp"
 
 namespace quoll::nn {
 
 namespace {
 
-// log sum exp(x - largest), and the largest.
+// Writes e^(x - largest) of each.
 struct Partition {
   float largest;
-  double log_sum;
+  double sum;
 };
 
-Partition partition(std::span<const float> logits) {
-  const float largest = *std::max_element(logits.begin(), logits.end());
-  double sum = 0.0;
-  for (const float x : logits) sum += math::exp(double{x} - double{largest});
-  return {largest, math::log(sum)};
+Partition partition(std::span<const float> logits, std::span<float> powers) {
+  Partition all{*std::max_element(logits.begin(), logits.end()), 0.0};
+  std::array<float, 4 * vector_width> part;
+  for (std::size_t begin = 0; begin < logits.size(); begin += part.size()) {
+    const std::size_t count = std::min(part.size(), logits.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) part[i] = logits[begin + i] - all.largest;
+    std::fill(part.begin() + static_cast<std::ptrdiff_t>(count), part.end(), 0.0f);
+    arithmetic().exponentials(part.data(), padded(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      powers[begin + i] = part[i];
+      all.sum += double{part[i]};
+    }
+  }
+  return all;
 }
 
 }  // namespace
 
 void softmax(std::span<const float> logits, std::span<float> probabilities) {
-  const Partition all = partition(logits);
-  for (std::size_t i = 0; i < logits.size(); ++i) {
-    probabilities[i] =
-        static_cast<float>(math::exp(double{logits[i]} - double{all.largest} - all.log_sum));
-  }
+  const auto share = static_cast<float>(1.0 / partition(logits, probabilities).sum);
+  for (float& p : probabilities) p *= share;
 }
 
 double cross_entropy(std::span<const float> logits, std::span<const float> target, float weight,
                      std::span<float> gradient) {
-  const Partition all = partition(logits);
+  const Partition all = partition(logits, gradient);
+  const auto share = static_cast<float>(1.0 / all.sum);
+  const double log_sum = math::log(all.sum);
   double sum = 0.0;
   for (std::size_t i = 0; i < logits.size(); ++i) {
-    const double log_p = double{logits[i]} - double{all.largest} - all.log_sum;
-    sum -= double{target[i]} * log_p;
-    gradient[i] = weight * (static_cast<float>(math::exp(log_p)) - target[i]);
+    sum -= double{target[i]} * (double{logits[i]} - double{all.largest} - log_sum);
+    gradient[i] = weight * (gradient[i] * share - target[i]);
   }
   return sum;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "quoll/base/normal.hpp"
+#include "quoll/base/ziggurat.hpp"
 
 namespace quoll::nn {
 namespace {
@@ -13,8 +13,8 @@ bool noisy(const Layer& layer) {
 }
 
 float factor(Rng& rng) {
-  const double x = draw_normal(rng);
-  return static_cast<float>(std::copysign(std::sqrt(std::fabs(x)), x));
+  const auto x = static_cast<float>(Ziggurat::normal().draw(rng));
+  return std::copysign(std::sqrt(std::fabs(x)), x);
 }
 
 // The rows of a layer that have noise, the bias last: calls row(offset, factor of the input,

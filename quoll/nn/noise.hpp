@@ -23,7 +23,7 @@ class Noise {
   /// None yet: as if every e were 0. The network must stay where it is.
   explicit Noise(const Network& network);
 
-  /// New noise; two uniform numbers for each input and each output of the dense layers.
+  /// New noise: a normal number for each input and each output of the dense layers.
   void draw(Rng& rng);
   /// Writes the network.parameters() floats of w.
   void compose(std::span<const float> mu_sigma, std::span<float> weights) const;

@@ -64,6 +64,31 @@ TEST(Activation, WithinAFewUlpsOfTheExactFunction) {
   });
 }
 
+TEST(Arithmetic, ExponentialsWithinAnUlp) {
+  std::vector<float> x;
+  for (float value = 0.0f; value > -87.0f; value -= 0.0013f) x.push_back(value);
+  x.resize(padded(x.size()), -86.9f);
+  on_every_target([&] {
+    std::vector<float> y = x;
+    arithmetic().exponentials(y.data(), y.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double expected = std::exp(double{x[i]});
+      EXPECT_LE(std::fabs(y[i] - expected), float_ulp(expected)) << x[i];
+    }
+    std::vector<float> ends(vector_width, -87.5f);
+    ends[0] = 0.0f;
+    ends[1] = -INFINITY;
+    ends[2] = std::nanf("");
+    ends[3] = -3.4e38f;
+    arithmetic().exponentials(ends.data(), ends.size());
+    EXPECT_EQ(ends[0], 1.0f);
+    EXPECT_EQ(ends[1], 0.0f);
+    EXPECT_TRUE(std::isnan(ends[2]));
+    EXPECT_EQ(ends[3], 0.0f);
+    EXPECT_EQ(ends[4], 0.0f);
+  });
+}
+
 TEST(Activation, WhatIsNoNumberStaysSo) {
   on_every_target([] {
     for (const Activation kind : {Activation::none, Activation::relu, Activation::elu,
