@@ -92,6 +92,7 @@ std::string table_of(const Distilled& of, bool exact, bool withholds) {
   for (std::size_t i = 0; i < of.seeds.size(); ++i) {
     const DistilledSeed& seed = of.seeds[i];
     const SeedResult& result = of.result.seeds[i];
+    if (result.steps == 0 && result.stop == Stop::interrupted) continue;
     std::vector<std::string> row{std::to_string(result.seed), grouped(result.steps)};
     row.push_back(share_text(seed.taught));
     if (withholds) row.push_back(share_text(seed.withheld));
@@ -104,6 +105,16 @@ std::string table_of(const Distilled& of, bool exact, bool withholds) {
     table.row(std::move(row));
   }
   return table.text();
+}
+
+// Which seeds did not come to their end, if anybody stopped them.
+std::string interruption(const Distilled& of) {
+  const auto stopped =
+      std::count_if(of.result.seeds.begin(), of.result.seeds.end(),
+                    [](const SeedResult& seed) { return seed.stop == Stop::interrupted; });
+  if (stopped == 0) return "";
+  return fmt::format("Interrupted: {} of {}.\n\n", stopped,
+                     counted(of.result.seeds.size(), "seed"));
 }
 
 std::string verdict(const Distilled& of, const Optimality& judged) {
@@ -142,7 +153,7 @@ std::string distilled_text(const Distilled& of) {
                   of.lesson.world.name, of.lesson.origin, counted(states, "state"),
                   shortest(of.lesson.discount), sizes(of.network, layout), layout_of(of.run),
                   grouped(of.network.free_parameters()));
-  text += table_of(of, exact, of.seeds[0].withheld.states > 0) + "\n";
+  text += table_of(of, exact, of.seeds[0].withheld.states > 0) + "\n" + interruption(of);
   text +=
       fmt::format("Largest error of Q{}: {} at {}.\n", of.seeds.size() > 1 ? " (first seed)" : "",
                   number_text(of.seeds[0].largest_error), of.seeds[0].worst_pair);
