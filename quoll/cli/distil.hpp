@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "quoll/experiment/run.hpp"
-#include "quoll/nn/network.hpp"
+#include "quoll/learn/deep/learned_network.hpp"
 
 namespace quoll::cli {
 
@@ -36,7 +36,7 @@ struct Distilled {
   const Run& run;
   const Lesson& lesson;
   RunResult result;
-  nn::Network network;
+  std::shared_ptr<const LearnedNetwork> network;  ///< of the first seed
   std::vector<DistilledSeed> seeds;
 };
 Result<Distilled> judge_distilled(const Run& run, const Lesson& lesson);

@@ -8,6 +8,7 @@
 #include "quoll/base/json.hpp"
 #include "quoll/base/text.hpp"
 #include "quoll/cli/distil.hpp"
+#include "quoll/cli/network_words.hpp"
 #include "quoll/env/listed.hpp"
 #include "quoll/learn/deep/distil.hpp"
 #include "quoll/report/table.hpp"
@@ -62,15 +63,6 @@ std::string share_text(const Right& of) {
   if (of.states == 0) return "-";
   const double share = 100.0 * static_cast<double>(of.right) / static_cast<double>(of.states);
   return fmt::format("{} of {} ({:.2f} %)", grouped(of.right), grouped(of.states), share);
-}
-
-std::string sizes(const nn::Network& network, NetworkLayout layout) {
-  std::string text = std::to_string(network.inputs());
-  for (const nn::Layer& layer : network.body()) text += "-" + std::to_string(layer.outputs);
-  for (const nn::Layer& layer : network.head(0)) text += "-" + std::to_string(layer.outputs);
-  if (layout == NetworkLayout::separate)
-    text += fmt::format(" for each of {} actions", network.heads());
-  return text;
 }
 
 std::string_view layout_of(const Run& run) {
@@ -130,13 +122,9 @@ std::string verdict(const Distilled& of, const Optimality& judged) {
 }  // namespace
 
 Result<Distilled> judge_distilled(const Run& run, const Lesson& lesson) {
-  const Result<LearnSetup> setup = resolve(run.settings().learn, run.world());
-  if (!setup) return setup.error();
-  Result<nn::Network> network = distilled_network(*setup);
-  if (!network) return network.error();
   const Result<std::shared_ptr<const Mdp>> names = listed(lesson.world);
   if (!names) return names.error();
-  Distilled of{run, lesson, run.result(true), std::move(*network), {}};
+  Distilled of{run, lesson, run.result(true), run.trainings().front().learner().network(), {}};
   for (const Training& training : run.trainings()) {
     of.seeds.push_back(judged(lesson, **names, training.learner(), of.result.exact));
   }
@@ -144,15 +132,12 @@ Result<Distilled> judge_distilled(const Run& run, const Lesson& lesson) {
 }
 
 std::string distilled_text(const Distilled& of) {
-  const NetworkLayout layout = of.run.settings().learn.deep.layout;
   std::uint64_t states = 0;
   for (const Right* right : {&of.seeds[0].taught, &of.seeds[0].withheld}) states += right->states;
   const bool exact = of.result.exact.has_value();
-  std::string text =
-      fmt::format("distil {}   {}, {}, discount {}\nnetwork {}, layout {}, {} numbers\n\n",
-                  of.lesson.world.name, of.lesson.origin, counted(states, "state"),
-                  shortest(of.lesson.discount), sizes(of.network, layout), layout_of(of.run),
-                  grouped(of.network.free_parameters()));
+  std::string text = fmt::format("distil {}   {}, {}, discount {}\n{}\n\n", of.lesson.world.name,
+                                 of.lesson.origin, counted(states, "state"),
+                                 shortest(of.lesson.discount), network_words(*of.network));
   text += table_of(of, exact, of.seeds[0].withheld.states > 0) + "\n" + interruption(of);
   text +=
       fmt::format("Largest error of Q{}: {} at {}.\n", of.seeds.size() > 1 ? " (first seed)" : "",
@@ -165,7 +150,8 @@ std::string distilled_json(const Distilled& of) {
   JsonWriter json(JsonStyle::pretty);
   json.begin_object().member("world", of.lesson.world.name).member("table", of.lesson.origin);
   json.member("discount", of.lesson.discount).member("layout", layout_of(of.run));
-  json.member("inputs", of.network.inputs()).member("numbers", of.network.free_parameters());
+  json.member("inputs", of.network->network.input.size());
+  json.member("numbers", numbers_of(of.network->network));
   json.key("runs").begin_array();
   for (std::size_t i = 0; i < of.seeds.size(); ++i) {
     const DistilledSeed& seed = of.seeds[i];

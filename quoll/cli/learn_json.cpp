@@ -4,6 +4,7 @@
 #include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/learn_certificate.hpp"
 #include "quoll/cli/learn_report.hpp"
+#include "quoll/cli/network_words.hpp"
 #include "quoll/nn/arithmetic.hpp"
 
 namespace quoll::cli {
@@ -163,6 +164,12 @@ std::string learn_json(const Run& run, const RunResult& result, const LearnStory
   json.member("discount", run.discount()).member("seed", learn.seed);
   if (run.entry().traits.networks) {
     json.member("arithmetic", nn::arithmetic().fused ? "fused" : "plain");
+  }
+  if (const auto network = run.trainings().front().learner().network()) {
+    json.key("network").begin_object().member("sizes", sizes_of(*network));
+    json.member("layout", layout_names[static_cast<std::size_t>(network->layout)]);
+    json.member("numbers", numbers_of(network->network));
+    json.member("reward_scale", network->value_scale).end_object();
   }
   json.member("steps", steps).member("seconds", result.seconds);
   json.member("steps_per_second",

@@ -1,6 +1,7 @@
 #include "quoll/cli/learn_report.hpp"
 #include "quoll/cli/evaluate_sample.hpp"
 #include "quoll/cli/learn_certificate.hpp"
+#include "quoll/cli/learn_heading.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +13,6 @@
 #include "quoll/cli/judged_run.hpp"
 #include "quoll/cli/seeds_curve.hpp"
 #include "quoll/model/graph.hpp"
-#include "quoll/nn/arithmetic.hpp"
 #include "quoll/report/curve.hpp"
 #include "quoll/report/explain_text.hpp"
 #include "quoll/report/grid_text.hpp"
@@ -36,29 +36,6 @@ std::vector<double> q_star_all(const Mdp& mdp, const Solution& exact, double dis
 }
 
 namespace {
-
-std::string heading(const Run& run) {
-  const LearnSettings& learn = run.settings().learn;
-  const Result<LearnSetup> setup = resolve(learn, run.world());
-  std::string text =
-      fmt::format("learn {}   {}{}, discount {}", run.world().name, learn.method,
-                  run.entry().rule.empty() ? "" : ", rule " + learn.rule, shortest(run.discount()));
-  if (setup) {
-    if (!run.entry().traits.approximates) text += ", step size " + setup->step_size.text();
-    text += fmt::format(", actions {}, starts {}, episodes of at most {} steps",
-                        run.entry().traits.directed ? "by hope" : setup->exploration.name(),
-                        learn.start, setup->episode_steps);
-  }
-  if (run.settings().seeds > 1) {
-    text += fmt::format(", seeds {} to {}", learn.seed, learn.seed + run.settings().seeds - 1);
-  } else {
-    text += fmt::format(", seed {}", learn.seed);
-  }
-  if (run.entry().traits.networks) {
-    text += fmt::format(", {} arithmetic", nn::arithmetic().fused ? "fused" : "plain");
-  }
-  return text + "\n";
-}
 
 // "stable after 213 steps": and what that means.
 std::string stop_sentence(const Run& run, const SeedResult& seed, const LearnStory& story) {
@@ -361,7 +338,7 @@ std::vector<PairVisits> least_visited(const Run& run, const RunResult& result,
 std::string learn_text(const Run& run, const RunResult& result, const TerminalStyle& style,
                        const LearnStory& story) {
   const SeedResult& first = result.seeds.front();
-  std::string text = heading(run);
+  std::string text = learn_heading(run);
   if (run.choice()) {
     text += "Chosen: " + run.choice()->options() + "; " + run.choice()->reason + ".\n";
   }

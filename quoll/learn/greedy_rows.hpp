@@ -22,7 +22,7 @@ template <class Value, class Visits>
 Action best_visited(Action actions, const Value& value, const Visits& visits) {
   Action best = no_action;
   for (Action a = 0; a < actions; ++a) {
-    if (visits(a) == 0) continue;
+    if (!visits(a)) continue;
     if (best == no_action || value(a) > value(best)) best = a;
   }
   return best;

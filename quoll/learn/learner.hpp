@@ -51,6 +51,8 @@ struct Estimates {
   std::vector<std::uint32_t> visits;
   std::vector<double> reward_estimate;  ///< rules with their own rE; else empty
   bool single_precision = true;         ///< q holds floats
+  /// Per state, whether q tells of actions that were never tried, too; empty: of none.
+  std::vector<std::uint8_t> foreseen;
 };
 
 /// A number that a learner tells about itself, such as "td_loss" (mean squared error of an update)

@@ -83,10 +83,11 @@ std::vector<Action> greedy_policy(const Estimates& estimates) {
   std::vector<Action> policy(begin.size() - 1, no_action);
   for (std::size_t s = 0; s < policy.size(); ++s) {
     // Nobody acts in an end, so its pairs are never visited.
+    const bool foreseen = !estimates.foreseen.empty() && estimates.foreseen[s] != 0;
     policy[s] = best_visited(
         static_cast<Action>(begin[s + 1] - begin[s]),
         [&](Action a) { return estimates.q[begin[s] + a]; },
-        [&](Action a) { return estimates.visits[begin[s] + a]; });
+        [&](Action a) { return foreseen || estimates.visits[begin[s] + a] > 0; });
   }
   return policy;
 }

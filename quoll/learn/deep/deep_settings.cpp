@@ -35,9 +35,10 @@ void DeepSettings::describe_network(Describer& d) {
   batched("clip_gradient", clip_gradient, -1, 1e300,
           "largest norm of a gradient; 0 = any, -1 = the method's");
   d.of("dqn, distil")("batch", batch, 0, 65536, "transitions of an update; 0 = the method's");
-  networks("reward_scale", reward_scale, 0, 1e9,
-           "what rewards are multiplied by to learn; 0 = 1, or what makes the largest 1 where the "
-           "world declares only rewards below 0.01, or some above 1000");
+  networks(
+      "reward_scale", reward_scale, 0, 1e9,
+      "what rewards are multiplied by to learn; 0 = 1, or where the world declares its rewards: "
+      "what makes the largest 1 if it is below 0.01, 1000 if above, with loss huber at most 1");
 }
 
 void DeepSettings::describe_methods(Describer& d) {
@@ -67,7 +68,8 @@ void DeepSettings::describe_methods(Describer& d) {
   dqn.choice("returns", returns, returns_names,
              "what is learned: mean, categorical (C51) or quantile (QR-DQN) distributions");
   d.of("categorical, quantile")("atoms", atoms, 0, 1024, "numbers per action; 0 = 51, 32");
-  categories("lowest_return", lowest_return, -1e300, 1e300, "the first atom");
+  categories("lowest_return", lowest_return, -1e300, 1e300,
+             "the first atom; both 0 = what rewards and discount allow");
   categories("highest_return", highest_return, -1e300, 1e300, "the last atom");
   d.of("nfq")("fits", fits, 0, 1e6, "fits each time, each to new targets; 0 = the method's");
   d.of("nfq, dqn, pqn")("walkers", walkers, 0, 65536, "lanes walked together; 0 = the method's");

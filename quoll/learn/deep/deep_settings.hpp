@@ -65,7 +65,7 @@ struct DeepSettings {
   bool noisy = false;
   Returns returns = Returns::mean;
   std::uint64_t atoms = 0;
-  double lowest_return = -10.0, highest_return = 10.0;
+  double lowest_return = 0.0, highest_return = 0.0;
 
   // nfq
   std::uint64_t fits = 0;

@@ -4,8 +4,10 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 #include "quoll/base/text.hpp"
+#include "quoll/learn/value_range.hpp"
 
 namespace quoll {
 namespace {
@@ -142,13 +144,16 @@ void fill_in(DeepSettings& settings, const DeepHabits& habits, bool observed) {
   if (settings.clip_gradient < 0.0) settings.clip_gradient = habits.clip_gradient;
 }
 
-// Networks learn best what is about as large as 1. Ranges of distributions are as they are said.
-double usual_scale(const DeepSettings& settings, const World& world) {
-  if (!world.traits.reward_bounds || settings.returns == Returns::categorical) return 1.0;
+// Networks learn best what is about as large as 1, and Huber's loss finds the mean of what differs
+// by less than 1. Ranges of distributions are as they are said.
+double usual_scale(const DeepSetup& deep, const World& world) {
+  if (!world.traits.reward_bounds || deep.settings.returns == Returns::categorical) return 1.0;
   const auto [low, high] = *world.traits.reward_bounds;
   const double largest = std::max(std::fabs(low), std::fabs(high));
-  constexpr double small = 0.01, large = 1000.0;
-  return largest > 0.0 && (largest < small || largest > large) ? 1.0 / largest : 1.0;
+  const bool bends = deep.loss == nn::LossKind::huber && deep.settings.returns == Returns::mean;
+  const double small = 0.01, large = bends ? 1.0 : 1000.0;
+  if (largest > large) return large / largest;
+  return largest > 0.0 && largest < small ? 1.0 / largest : 1.0;
 }
 
 // A row of numbers, planes, or one number for each state.
@@ -194,7 +199,9 @@ Result<void> find_steps(DeepSetup& deep, const DeepHabits& habits) {
   deep.optimiser.kind = *optimiser;
   deep.optimiser.epsilon = settings.optimiser_epsilon;
   deep.optimiser.decay = settings.gradient_decay;
-  const auto loss = word(settings.loss, nn::loss_names, habits.loss, "--loss");
+  const bool listed = deep.spaces.observation == 0;
+  const auto loss =
+      word(settings.loss, nn::loss_names, listed ? habits.loss_of_states : habits.loss, "--loss");
   if (!loss) return loss.error();
   deep.loss = *loss;
   const auto rate = parse_schedule(
@@ -209,8 +216,34 @@ Result<void> find_steps(DeepSetup& deep, const DeepHabits& habits) {
   return {};
 }
 
+// The values that atoms of C51 stand for: all that the world's rewards allow, if nobody says.
+Result<void> find_support(DeepSetup& deep, const LearnSetup& setup) {
+  double &low = deep.settings.lowest_return, &high = deep.settings.highest_return;
+  if (low < high) return {};
+  if (low != 0.0 || high != 0.0) {
+    return Error{"--lowest-return", 0, 0, "less than --highest-return expected", ""};
+  }
+  const auto rewards = reward_range(*setup.world, "");
+  if (*rewards) std::tie(low, high) = value_range(**rewards, setup.discount);
+  low = std::min(low, 0.0);  // an episode may be cut, or have no step
+  high = std::max(high, 0.0);
+  if (setup.world->traits.players > 1) {
+    high = std::max(high, -low);
+    low = -high;
+  }
+  low *= deep.settings.reward_scale;
+  high *= deep.settings.reward_scale;
+  if (std::isfinite(low) && std::isfinite(high) && low < high) return {};
+  return Error{"--highest-return", 0, 0,
+               std::string("categorical returns need a range, and ") +
+                   (*rewards ? "the discount " + shortest(setup.discount) + " gives them no bound"
+                             : setup.world->name + " does not declare its rewards") +
+                   ": --lowest-return and --highest-return expected",
+               ""};
+}
+
 // How many numbers tell of an action's return.
-Result<void> find_atoms(DeepSetup& deep) {
+Result<void> find_atoms(DeepSetup& deep, const LearnSetup& setup) {
   const DeepSettings& settings = deep.settings;
   if (settings.returns == Returns::mean) {
     deep.atoms = 1;
@@ -221,11 +254,7 @@ Result<void> find_atoms(DeepSetup& deep) {
   if (deep.atoms > 1024 || (settings.returns == Returns::categorical && deep.atoms < 2)) {
     return Error{"--atoms", 0, 0, "2 to 1024 expected, not " + std::to_string(deep.atoms), ""};
   }
-  if (settings.returns == Returns::categorical &&
-      !(settings.lowest_return < settings.highest_return)) {
-    return Error{"--lowest-return", 0, 0, "less than --highest-return expected", ""};
-  }
-  return {};
+  return settings.returns == Returns::categorical ? find_support(deep, setup) : Result<void>();
 }
 
 }  // namespace
@@ -235,13 +264,13 @@ Result<DeepSetup> DeepSetup::make(const LearnSetup& setup, const DeepHabits& hab
   const DeepSettings& settings = deep.settings = setup.deep;
   if (const auto found = find_input(deep, setup, habits); !found) return found.error();
   fill_in(deep.settings, habits, deep.spaces.observation > 0);
-  if (settings.reward_scale == 0.0) {
-    deep.settings.reward_scale = usual_scale(settings, *setup.world);
-  }
   auto hidden = layers(settings, deep.spaces, habits);
   if (!hidden) return hidden.error();
   deep.hidden = std::move(*hidden);
   if (const auto found = find_steps(deep, habits); !found) return found.error();
+  if (settings.reward_scale == 0.0) {
+    deep.settings.reward_scale = usual_scale(deep, *setup.world);
+  }
   deep.walkers =
       settings.walkers > 0 ? static_cast<std::uint32_t>(settings.walkers) : habits.walkers;
   deep.traces = habits.traces;
@@ -253,7 +282,7 @@ Result<DeepSetup> DeepSetup::make(const LearnSetup& setup, const DeepHabits& hab
     return Error{"--inputs", 0, 0,
                  "the ranges of what " + setup.world->name + " shows are not declared", "raw"};
   }
-  if (const auto found = find_atoms(deep); !found) return found.error();
+  if (const auto found = find_atoms(deep, setup); !found) return found.error();
   return deep;
 }
 

@@ -24,6 +24,9 @@ struct DeepHabits {
   nn::OptimiserKind optimiser;
   std::string_view learning_rate;
   nn::LossKind loss;
+  /// Where states are numbered, that is where Q* is to be found: Huber's loss finds no mean of what
+  /// differs by more than 1.
+  nn::LossKind loss_of_states;
   double clip_gradient;
   std::uint32_t walkers;
   // What 0 stands for.

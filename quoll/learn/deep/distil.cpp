@@ -32,6 +32,7 @@ constexpr DeepHabits habits{.hidden = "128,128",
                             .optimiser = nn::OptimiserKind::adam,
                             .learning_rate = "0.003",
                             .loss = nn::LossKind::half_squared,
+                            .loss_of_states = nn::LossKind::half_squared,
                             .clip_gradient = 0.0,
                             .walkers = 1,
                             .batch = 128,
@@ -65,6 +66,12 @@ class Distil final : public NetworkLearner {
         slopes_(batch_),
         outputs_part_(batch_ * actions_) {}
 
+  /// The table's own gaps stay gaps.
+  Estimates estimates() const override {
+    Estimates out = NetworkLearner::estimates();
+    out.foreseen.clear();
+    return out;
+  }
   const std::vector<std::uint8_t>& withheld() const { return withheld_; }
 
   void teach(const Estimates& table, double share) {
@@ -252,12 +259,6 @@ void teach(Learner& distilled, const Estimates& table, double share) {
 
 const std::vector<std::uint8_t>& withheld(const Learner& distilled) {
   return static_cast<const Distil&>(distilled).withheld();
-}
-
-Result<nn::Network> distilled_network(const LearnSetup& setup) {
-  const Result<DeepSetup> deep = DeepSetup::make(setup, habits);
-  if (!deep) return deep.error();
-  return nn::Network::make(network_spec(*deep));
 }
 
 double scale_of(const Estimates& table) {

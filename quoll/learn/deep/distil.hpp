@@ -19,9 +19,6 @@ void teach(Learner& distilled, const Estimates& table, double share = 1.0);
 /// Per state, whether it was kept from a learner of the method "distil".
 const std::vector<std::uint8_t>& withheld(const Learner& distilled);
 
-/// The plan of the network that the settings ask for.
-Result<nn::Network> distilled_network(const LearnSetup& setup);
-
 /// The factor for `reward_scale` that brings the largest visited value of a table to between 1/2
 /// and 1: a power of two, so that scaling rounds nothing.
 double scale_of(const Estimates& table);

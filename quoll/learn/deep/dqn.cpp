@@ -46,6 +46,7 @@ constexpr DeepHabits habits{.hidden = "128,128",
                             .optimiser = nn::OptimiserKind::adam,
                             .learning_rate = "0.0005:0.00001:250000",
                             .loss = nn::LossKind::huber,
+                            .loss_of_states = nn::LossKind::half_squared,
                             .clip_gradient = 10.0,
                             .walkers = 1,
                             .multi_step = 3};

@@ -70,8 +70,11 @@ void Frames::persist(Archive& archive) {
   archive("words", words_);
 }
 
-bool Frames::fits() const {
+bool Frames::fits(std::uint64_t states) const {
   const bool numbers = observation_ > 0;
+  for (const State state : states_) {
+    if (state >= states) return false;
+  }
   return states_.size() == (numbers ? 0 : size_) &&
          floats_.size() == (numbers && !bits_ ? size_ * observation_ : 0) &&
          words_.size() == (numbers && bits_ ? size_ * words_of(observation_) : 0);

@@ -23,8 +23,8 @@ class Frames {
   State read(std::uint64_t frame, std::span<float> observation) const;
 
   void persist(Archive& archive);
-  /// Whether what was loaded goes together.
-  bool fits() const;
+  /// Whether what was loaded goes together, and every state is below `states`.
+  bool fits(std::uint64_t states) const;
 
  private:
   void unpack();

@@ -156,6 +156,7 @@ Estimates NetworkLearner::estimates() const {
     inputs_.write(s, {}, row.span());
     q->values(QFunction::Weights::online, row.data(), 1, values.data());
     means(values.data(), mean);
+    out.foreseen.push_back(walkers_.ends_in(s) ? 0 : 1);
     for (Action a = 0; a < row_begin_[s + 1] - row_begin_[s]; ++a) {
       out.q.push_back(double{mean[output_of(s, a)]} / value_scale());
       out.visits.push_back(visits_[s * deep_.spaces.actions + a]);

@@ -34,6 +34,7 @@ constexpr DeepHabits habits{.hidden = "128,128",
                             .optimiser = nn::OptimiserKind::radam,
                             .learning_rate = "0.001:0.00001:500000",
                             .loss = nn::LossKind::half_squared,
+                            .loss_of_states = nn::LossKind::half_squared,
                             .clip_gradient = 10.0,
                             .walkers = 16};
 
@@ -198,7 +199,7 @@ void Pqn::persist_own(Archive& archive) {
   archive("over", over);
   archive("values", values);
   archive("returns", returns);
-  bool fits = at_ < how_.rollout && seen_.size() == steps_ && seen_.fits();
+  bool fits = at_ < how_.rollout && seen_.size() == steps_ && seen_.fits(deep_.spaces.states);
   for (const Action action : chosen_) fits &= action < actions_;
   if (fits) return;
   at_ = 0;

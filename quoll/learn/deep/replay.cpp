@@ -6,6 +6,8 @@ namespace quoll {
 
 Replay::Replay(const Spaces& spaces, std::uint64_t capacity, std::uint32_t lanes)
     : observation_(spaces.observation),
+      states_(spaces.states),
+      actions_(spaces.actions),
       lanes_(lanes),
       ring_(std::max<std::uint64_t>(capacity / lanes, 1) + 1),
       action_(ring_ * lanes),
@@ -60,10 +62,11 @@ void Replay::persist(Archive& archive) {
   if (archive.saving() || !archive.good()) return;
   bool fits = head_ < ring_ && filled_ < ring_ && action_.size() == slots &&
               reward_.size() == slots && flags_.size() == slots && aside_.size() == slots &&
-              frames_.size() >= slots && frames_.size() <= 2 * slots + 1 && frames_.fits();
+              frames_.size() >= slots && frames_.size() <= 2 * slots + 1 && frames_.fits(states_);
   for (std::uint64_t slot = 0; fits && slot < slots; ++slot) {
     fits = !over(slot) || (aside_[slot] >= slots && aside_[slot] < frames_.size());
   }
+  for (const Action action : action_) fits &= action < actions_;
   for (const std::uint64_t frame : free_) fits &= frame >= slots && frame < frames_.size();
   if (!fits) archive.fail("the steps that are remembered do not fit together");
 }

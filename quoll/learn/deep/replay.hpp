@@ -73,9 +73,10 @@ class Replay {
   std::uint64_t frame_aside();
 
   std::uint32_t observation_ = 0;
-  std::uint64_t lanes_ = 1, ring_ = 2;   // ring_ - 1 transitions of each lane are remembered
-  std::uint64_t head_ = 0, filled_ = 0;  // the place of the next push; transitions of a lane
-  std::vector<Action> action_;           // per slot, as what follows
+  std::uint64_t states_ = 0, actions_ = 0;  // that there are
+  std::uint64_t lanes_ = 1, ring_ = 2;      // ring_ - 1 transitions of each lane are remembered
+  std::uint64_t head_ = 0, filled_ = 0;     // the place of the next push; transitions of a lane
+  std::vector<Action> action_;              // per slot, as what follows
   std::vector<float> reward_;
   std::vector<std::uint8_t> flags_;
   std::vector<std::uint64_t> aside_;

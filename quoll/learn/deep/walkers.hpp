@@ -48,6 +48,9 @@ class Walkers {
     return counts_.empty() ? spaces_.actions : counts_[state];
   }
 
+  /// Whether an episode ends where it comes to a numbered state.
+  bool ends_in(State state) const { return environment_->actions(state) == 0; }
+
   /// Steps of all lanes, episodes and returns since the beginning.
   const LearnProgress& progress() const { return progress_; }
   /// The episodes that ended since forget_finished(), in order of their steps.

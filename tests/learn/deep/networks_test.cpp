@@ -390,6 +390,54 @@ TEST(Dqn, DistributionsHaveTheRightMean) {
 }
 
 // One-step returns, many passes: the table's values, up to the steps that go on for ever.
+// A prize of 20 one time in ten is worth 2, not the 0 of nearly always.
+TEST(Dqn, FindsTheMeanOfWhatFollows) {
+  MdpBuilder builder(0.5);
+  builder.move("A", "gamble", "END", 0.0, 0.9).move("A", "gamble", "END", 20.0, 0.1);
+  builder.move("A", "sure", "END", 1.0);
+  const World world = to_world("prize", *builder.start("A").build());
+  LearnSettings settings;
+  settings.method = "dqn";
+  settings.until_stable = false;
+  const auto one = learner(settings, world);
+  one->advance(30'000, {});
+  const Estimates estimates = one->estimates();
+  EXPECT_NEAR(estimates.q[0], 2.0, 0.5);
+  EXPECT_NEAR(estimates.q[1], 1.0, 0.25);
+}
+
+// The atoms of C51 reach as far as values do, if nobody says.
+TEST(Dqn, DistributionsCoverWhatRewardsAllow) {
+  LearnSettings settings = network("dqn");
+  settings.deep.returns = Returns::categorical;
+  settings.deep.hidden = "16";
+  settings.deep.optimiser = "adam";
+  settings.deep.loss = "auto";
+  settings.deep.learning_rate = "0.005";
+  const World world = adventure();
+  const auto one = learner(settings, world);
+  one->advance(5000, {});
+  EXPECT_LT(error_of(world, *one), 0.05);
+}
+
+// What a network says of what was never tried is an answer, too; in an end nobody acts.
+TEST(Network, ActsWhereNothingWasTried) {
+  for (const char* const method : {"dqn", "pqn", "nfq", "stream-q"}) {
+    for (const World& world : {adventure(), without_model(slippery(5))}) {
+      LearnSettings settings;
+      settings.method = method;
+      settings.until_stable = false;
+      const auto one = learner(settings, world);
+      const Estimates estimates = one->estimates();
+      const std::vector<Action> policy = greedy_policy(estimates);
+      const auto environment = world.make({});
+      for (State s = 0; s < policy.size(); ++s) {
+        EXPECT_EQ(policy[s] == no_action, environment->actions(s) == 0) << world.name << " " << s;
+      }
+    }
+  }
+}
+
 TEST(Pqn, ALinearNetworkFindsTheTable) {
   for (const World& world : {adventure(), corridor(5)}) {
     LearnSettings settings = network("pqn");

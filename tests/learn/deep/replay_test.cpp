@@ -152,6 +152,24 @@ TEST(Replay, GoesOnWhereItWasSaved) {
   }
 }
 
+TEST(Replay, RefusesStatesAndActionsThatThereAreNot) {
+  Replay replay(spaces_of(0, false), 20, 2);
+  Story story(0, 2, false);
+  for (int step = 0; step < 33; ++step) story.step(replay);
+  Archive saving;
+  replay.persist(saving);
+  Spaces fewer = spaces_of(0, false);
+  fewer.states = 100;
+  Spaces less = spaces_of(0, false);
+  less.actions = 2;
+  for (const Spaces& spaces : {fewer, less}) {
+    Replay other(spaces, 20, 2);
+    Archive loading{std::span<const std::byte>(saving.bytes())};
+    other.persist(loading);
+    EXPECT_FALSE(loading.good());
+  }
+}
+
 // By hand, discount 1/2, rewards in tenths: 1, 2, 4 (end), 8, 16 (cut), 32.
 TEST(Replay, StretchesEndWithTheirEpisode) {
   Replay replay(spaces_of(0, false), 10, 1);
