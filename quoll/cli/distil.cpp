@@ -157,7 +157,7 @@ void advance(Run& run, const RunSettings& limits, bool quiet, RunFiles& files) {
   run.advance(limits, 0.0, keep_going, files.has_folder() ? sink : Sink());
 }
 
-// The goal is missed where not every greedy action is right and nobody said how many updates.
+// The goal is missed where the network does not agree and nobody said how many updates.
 Exit exit_status(const Run& run) {
   const bool wanted = run.settings().learn.until_stable;
   for (const Training& training : run.trainings()) {
@@ -207,8 +207,10 @@ void declare_distil(Options& options) {
   options.option("--with", &given->world.with, "KEY=VALUE",
                  "a parameter of the world; may be repeated");
   given->given.declare_flags(options, settings_of_fit(defaults));
-  options.option("--steps", &given->steps, "whole number",
-                 "updates; without it until every greedy action is right, at most 20000");
+  options.option(
+      "--steps", &given->steps, "whole number",
+      "updates; without it until every greedy action is right and the mean error of Q is "
+      "at most 2 % of the largest value, at most 20000");
   options.option("--share", &given->share, "number in (0, 1]",
                  "of the states, drawn by the seed, is taught; the others are judged apart [1]");
   options.flag("--json", &given->output.json, "print one JSON object on stdout");

@@ -99,14 +99,25 @@ std::string table_of(const Distilled& of, bool exact, bool withholds) {
   return table.text();
 }
 
-// Which seeds did not come to their end, if anybody stopped them.
-std::string interruption(const Distilled& of) {
-  const auto stopped =
-      std::count_if(of.result.seeds.begin(), of.result.seeds.end(),
-                    [](const SeedResult& seed) { return seed.stop == Stop::interrupted; });
-  if (stopped == 0) return "";
-  return fmt::format("Interrupted: {} of {}.\n\n", stopped,
-                     counted(of.result.seeds.size(), "seed"));
+// How many seeds did not come to their end.
+std::string shortfall(const Distilled& of) {
+  const auto ended = [&](Stop how) {
+    return std::count_if(of.result.seeds.begin(), of.result.seeds.end(),
+                         [&](const SeedResult& seed) { return seed.stop == how; });
+  };
+  const std::string all = counted(of.result.seeds.size(), "seed");
+  std::string text;
+  if (const auto stopped = ended(Stop::interrupted); stopped > 0) {
+    text = fmt::format("Interrupted: {} of {}.\n\n", stopped, all);
+  }
+  const bool wanted = of.run.settings().learn.until_stable;
+  if (const auto missed = ended(Stop::budget) + ended(Stop::steps); wanted && missed > 0) {
+    text +=
+        "Not reached" +
+        (of.result.seeds.size() > 1 ? fmt::format(" by {} of {}", missed, all) : std::string()) +
+        ": every action right, and a mean error of at most 2 % of the largest value.\n\n";
+  }
+  return text;
 }
 
 std::string verdict(const Distilled& of, const Optimality& judged) {
@@ -138,7 +149,7 @@ std::string distilled_text(const Distilled& of) {
   std::string text = fmt::format("distil {}   {}, {}, discount {}\n{}\n\n", of.lesson.world.name,
                                  of.lesson.origin, counted(states, "state"),
                                  shortest(of.lesson.discount), network_words(*of.network));
-  text += table_of(of, exact, of.seeds[0].withheld.states > 0) + "\n" + interruption(of);
+  text += table_of(of, exact, of.seeds[0].withheld.states > 0) + "\n" + shortfall(of);
   text +=
       fmt::format("Largest error of Q{}: {} at {}.\n", of.seeds.size() > 1 ? " (first seed)" : "",
                   number_text(of.seeds[0].largest_error), of.seeds[0].worst_pair);

@@ -257,9 +257,25 @@ Result<void> find_atoms(DeepSetup& deep, const LearnSetup& setup) {
   return settings.returns == Returns::categorical ? find_support(deep, setup) : Result<void>();
 }
 
+// Below 0 there is only the -1 that stands for the method's.
+Result<void> check_numbers(const DeepSettings& settings) {
+  const auto refuse = [](std::string flag, std::string expected) -> Result<void> {
+    return Error{std::move(flag), 0, 0, std::move(expected) + " expected, or -1 = the method's",
+                 ""};
+  };
+  if (settings.clip_gradient < 0.0 && settings.clip_gradient != -1.0) {
+    return refuse("--clip-gradient", "a number of at least 0");
+  }
+  if (settings.return_decay < 0.0 && settings.return_decay != -1.0) {
+    return refuse("--return-decay", "a number in [0, 1]");
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<DeepSetup> DeepSetup::make(const LearnSetup& setup, const DeepHabits& habits) {
+  if (const auto fits = check_numbers(setup.deep); !fits) return fits.error();
   DeepSetup deep;
   const DeepSettings& settings = deep.settings = setup.deep;
   if (const auto found = find_input(deep, setup, habits); !found) return found.error();

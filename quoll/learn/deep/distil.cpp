@@ -5,7 +5,9 @@
 //   given T(s,a) of the pairs that were visited
 //   1   shuffle the pairs
 //   2   for each batch of them: a step down the gradient of mean L(Q(s_i, a_i), T(s_i, a_i))
-//   3   until stable: stop if in every state the greedy action of Q is one of the best of T
+//   3   until stable: stop if in every state the greedy action of Q is one of the best of T, and
+//   the
+//       mean of |Q - T| is at most a fiftieth of what T reaches
 //   4   go to 1
 //
 // T -> table_, times reward_scale; pairs -> order_; L, steps, learning rate -> DeepSettings.
@@ -37,6 +39,9 @@ constexpr DeepHabits habits{.hidden = "128,128",
                             .walkers = 1,
                             .batch = 128,
                             .by_state = true};
+
+// Largest mean error of a network that agrees, of the largest value.
+constexpr double agreed_error = 0.02;
 
 // Whether, among the visited of `n` actions, the one that q prefers is as good as the best; nothing
 // where none was visited.
@@ -192,6 +197,7 @@ void Distil::round() {
 
 bool Distil::agrees() {
   const std::size_t size = inputs_.size();
+  double errors = 0.0, largest = 0.0;
   for (std::size_t begin = 0; begin < taught_.size(); begin += batch_) {
     const std::size_t count = std::min(batch_, taught_.size() - begin);
     for (std::size_t i = 0; i < count; ++i) {
@@ -201,14 +207,21 @@ bool Distil::agrees() {
     for (std::size_t i = 0; i < count; ++i) {
       const State s = taught_[begin + i];
       const std::uint64_t n = row_begin_[s + 1] - row_begin_[s];
+      const float* const q = outputs_part_.data() + i * actions_;
       put_in_order(s, outputs_part_.data() + i * actions_);
       if (!*prefers_best(table_.data() + row_begin_[s], visits_.data() + s * deep_.spaces.actions,
-                         outputs_part_.data() + i * actions_, n)) {
+                         q, n)) {
         return false;
+      }
+      for (std::uint64_t a = 0; a < n; ++a) {
+        if (visits(s, a) == 0) continue;
+        const double target = table_[row_begin_[s] + a] * deep_.settings.reward_scale;
+        errors += std::fabs(double{q[a]} - target);
+        largest = std::max(largest, std::fabs(target));
       }
     }
   }
-  return true;
+  return errors <= agreed_error * largest * static_cast<double>(pairs_.size());
 }
 
 void Distil::persist_own(Archive& archive) {
