@@ -16,8 +16,8 @@ Sampled sample(const World& world, const Policy& policy, const Plays& plays) {
   std::vector<double> means;
   for (std::uint64_t i = 0; i < blocks && !(i > 0 && interrupted()); ++i) {
     const std::uint64_t count = plays.episodes / blocks + (i < plays.episodes % blocks ? 1 : 0);
-    const Played part =
-        play(world, policy, count, plays.seed + i, plays.discount, plays.episode_steps);
+    const std::uint64_t seed = stream(plays.seed, "evaluated part", i).next();
+    const Played part = play(world, policy, count, seed, plays.discount, plays.episode_steps);
     const auto weight = static_cast<double>(count);
     sampled.played.episodes += count;
     sampled.played.mean += weight * part.mean;

@@ -253,9 +253,10 @@ Exit tell(const Run& run, const LearnOptions& options, const RunSettings& limits
   if (!print(text)) return user_error;
   const Result<void> kept = files.write_result(run, result);
   if (!kept) return fail(kept.error());
-  if (options.certificate.empty()) return done;
+  const Exit ended = result.cut_short > 0 ? goal_missed : done;
+  if (options.certificate.empty()) return ended;
   const Result<void> written = write_experience(options.certificate, run, result);
-  return written ? done : fail(written.error());
+  return written ? ended : fail(written.error());
 }
 
 // A log is all the experience there is: what steers or keeps a run has no effect on it.

@@ -4,8 +4,8 @@
 
 #include "quoll/base/text.hpp"
 #include "quoll/cli/network_words.hpp"
-#include "quoll/report/table.hpp"
 #include "quoll/nn/arithmetic.hpp"
+#include "quoll/report/table.hpp"
 
 namespace quoll::cli {
 

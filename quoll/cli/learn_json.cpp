@@ -88,6 +88,7 @@ void write_runs(JsonWriter& json, const RunResult& result) {
     } else {
       json.null_member("mean");
     }
+    json.member("evaluation_episodes", seed.played.episodes);
     json.member("training_return", seed.training_return);
     json.member("processor_seconds", seed.processor_seconds);
     write_reached(json, seed.reached);

@@ -190,13 +190,28 @@ std::string reached_line(const RunResult& result) {
                             statistics(seconds).median);
 }
 
+// That somebody stopped the greedy episodes.
+std::string cut_short_line(const Run& run, const RunResult& result) {
+  if (result.cut_short == 0) return "";
+  if (result.seeds.size() > 1) {
+    return fmt::format("Interrupted while greedy episodes were played, in {} of {}.\n",
+                       result.cut_short, counted(result.seeds.size(), "seed"));
+  }
+  return fmt::format("Interrupted after {} of {} greedy episodes.\n",
+                     grouped(result.seeds.front().played.episodes),
+                     grouped(run.settings().evaluation_episodes));
+}
+
 // What the greedy policies of the seeds earned.
 std::string statistics_lines(const Run& run, const RunResult& result) {
   const Statistics& s = result.statistics;
   std::string text;
   if (result.counted < result.seeds.size()) {
-    const bool ended = std::any_of(result.seeds.begin(), result.seeds.end(),
-                                   [](const auto& seed) { return seed.stop != Stop::interrupted; });
+    const bool ended =
+        std::any_of(result.seeds.begin(), result.seeds.end(), [&](const SeedResult& seed) {
+          return seed.stop != Stop::interrupted &&
+                 seed.played.episodes == run.settings().evaluation_episodes;
+        });
     text += fmt::format("of the {} {}: ", counted(result.counted, "seed"),
                         ended ? "not interrupted" : "begun");
   }
@@ -218,6 +233,7 @@ std::string seeds_table(const Run& run, const RunResult& result, const LearnStor
   std::string text = seeds_rows(run, result, story);
   if (run.settings().evaluation_episodes > 0 && result.counted > 0)
     text += statistics_lines(run, result);
+  text += cut_short_line(run, result);
   return story.until_return ? text + reached_line(result) : text;
 }
 
@@ -369,6 +385,7 @@ std::string learn_text(const Run& run, const RunResult& result, const TerminalSt
     }
     text += unknown_text(first.played);
   }
+  text += cut_short_line(run, result);
   return text + next_steps(run);
 }
 

@@ -19,7 +19,8 @@ namespace {
 std::string seeds_csv(const RunResult& result) {
   std::string text =
       "seed,steps,episodes,stop,seconds,processor_seconds,reached_steps,reached_episodes,"
-      "reached_processor_seconds,training_return,mean_return,mean_discounted,mean_steps,ended\n";
+      "reached_processor_seconds,training_return,mean_return,mean_discounted,mean_steps,ended,"
+      "evaluation_episodes\n";
   for (const SeedResult& seed : result.seeds) {
     std::string reached = ",,";
     if (seed.reached) {
@@ -34,7 +35,8 @@ std::string seeds_csv(const RunResult& result) {
     text += std::to_string(seed.seed) + "," + std::to_string(seed.steps) + "," +
             std::to_string(seed.episodes) + "," + std::string(stop_name(seed.stop)) + "," +
             shortest(seed.seconds) + "," + shortest(seed.processor_seconds) + "," + reached + "," +
-            (seed.training_return ? shortest(*seed.training_return) : "") + "," + played + "\n";
+            (seed.training_return ? shortest(*seed.training_return) : "") + "," + played + "," +
+            std::to_string(seed.played.episodes) + "\n";
   }
   return text;
 }

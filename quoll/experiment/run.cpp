@@ -254,6 +254,7 @@ void Run::sum_up(RunResult& result) const {
   for (const SeedResult& seed : result.seeds) {
     const bool begun = !stopped(seed) || seed.played.episodes > 0;
     if (begun && (all || !stopped(seed))) means.push_back(seed.played.mean);
+    result.cut_short += seed.steps > 0 && seed.played.episodes < settings_.evaluation_episodes;
     result.seconds += seed.seconds;
   }
   result.counted = means.size();

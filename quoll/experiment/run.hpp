@@ -59,6 +59,7 @@ struct RunResult {
   /// or while they played, of the others; where all, of those that had begun.
   Statistics statistics;
   std::uint64_t counted = 0;
+  std::uint64_t cut_short = 0;  ///< seeds that learned, whose greedy episodes somebody stopped
   std::optional<std::uint64_t>
       solved;            ///< of these at or above the world's own mark, if it has one
   double seconds = 0.0;  ///< learning, all seeds together
