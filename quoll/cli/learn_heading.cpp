@@ -37,4 +37,13 @@ std::string learn_heading(const Run& run) {
   return text + "\n";
 }
 
+std::string unchanged_line(const Run& run) {
+  std::uint64_t updates = 0;
+  for (const Training& training : run.trainings()) {
+    for (const Measure& measure : training.learner().measures()) updates += measure.count;
+  }
+  if (!run.entry().traits.networks || updates > 0) return "";
+  return "No update was made in these steps: the network is as it began.\n";
+}
+
 }  // namespace quoll::cli

@@ -10,4 +10,7 @@ namespace quoll::cli {
 /// One line, of networks two.
 std::string learn_heading(const Run& run);
 
+/// A line if it is a network that no seed has changed yet, else nothing.
+std::string unchanged_line(const Run& run);
+
 }  // namespace quoll::cli

@@ -359,7 +359,7 @@ std::string learn_text(const Run& run, const RunResult& result, const TerminalSt
     text += "Chosen: " + run.choice()->options() + "; " + run.choice()->reason + ".\n";
   }
   if (result.seeds.size() > 1) {
-    text += "\n" + printed_text(run, story) + seeds_table(run, result, story);
+    text += "\n" + printed_text(run, story) + seeds_table(run, result, story) + unchanged_line(run);
     if (!run.world().mdp) text += curve_line(run, style);
     text += least_visited_text(run, result, story);
     if (!run.entry().sound) text += verdict(run, result, first);
@@ -373,7 +373,7 @@ std::string learn_text(const Run& run, const RunResult& result, const TerminalSt
   text += impossible_text(run, first.impossible);
   text += experience_text(run, result);
   text += verdict(run, result, first);
-  text += curve_line(run, style);
+  text += unchanged_line(run) + curve_line(run, style);
   if (first.played.episodes > 0) {
     text += fmt::format("greedy policy: mean return {} over {}, {:.0f} % reach an end\n",
                         number_text(first.played.mean), counted(first.played.episodes, "episode"),

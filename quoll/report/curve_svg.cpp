@@ -120,7 +120,8 @@ std::vector<LegendItem> legend_of(std::span<const Curve> curves) {
     }
     for (const CurvePoint& point : curves[i].points) band = band || std::isfinite(point.upper);
   }
-  if (band) items.push_back({LegendItem::Kind::square, "#cfdbe6", "lower to upper over seeds"});
+  if (band)
+    items.push_back({LegendItem::Kind::square, "#cfdbe6", "95 % interval of the mean over seeds"});
   return items;
 }
 
