@@ -218,6 +218,7 @@ Result<void> advance(Run& run, const LearnOptions& options, const RunSettings& l
     Result<void> saved = files.save(run);
     if (finished || interrupted()) return saved;
     if (saved) saved = files.write_folder(run);
+    if (saved) saved = files.write_curves(run);
     if (!saved) fail(saved.error());
   }
 }

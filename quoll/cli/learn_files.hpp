@@ -28,8 +28,10 @@ class RunFiles {
   Result<void> save(Run& run) const;
   /// The folder, if there is one: run.quoll, settings.toml, records.csv.
   Result<void> write_folder(Run& run) const;
-  /// What became of the run, in the same folder: seeds.csv, a line for each seed; curve.svg; and
-  /// the records for TensorBoard, tensorboard/seed-N/, with time as seconds of the processor.
+  /// How it goes, in the same folder: curve.svg, and the records for TensorBoard,
+  /// tensorboard/seed-N/, with time as seconds of the processor.
+  Result<void> write_curves(const Run& run) const;
+  /// What became of the run: seeds.csv, a line for each seed, and the curves.
   Result<void> write_result(const Run& run, const RunResult& result) const;
 
  private:

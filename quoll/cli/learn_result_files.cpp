@@ -96,13 +96,17 @@ void remove_other_seeds(const std::string& tensorboard, const Run& run) {
 
 Result<void> RunFiles::write_result(const Run& run, const RunResult& result) const {
   if (folder_.empty()) return {};
-  Result<void> written = write_file(in_folder("seeds.csv"), seeds_csv(result));
-  if (!written) return written;
+  const Result<void> written = write_file(in_folder("seeds.csv"), seeds_csv(result));
+  return written ? write_curves(run) : written;
+}
+
+Result<void> RunFiles::write_curves(const Run& run) const {
+  if (folder_.empty()) return {};
   const std::vector<Curve> curves{run.trainings().size() > 1 ? curve_over_seeds(run)
                                                              : curve_of(run.trainings().front())};
   const Picture picture =
       curve_svg({curves, run.world().name + ", " + run.settings().learn.method});
-  written = write_file(in_folder("curve.svg"), picture.svg);
+  Result<void> written = write_file(in_folder("curve.svg"), picture.svg);
   if (!written) return written;
   written = make_folder(in_folder("tensorboard"));
   if (!written) return written;
