@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -174,11 +175,32 @@ Result<std::vector<Action>> read_json_policy(const std::string& path, const Mdp&
 Result<Run> read_run(const std::string& path, const World& world) {
   Result<Run> run = Run::load(path, false);
   if (!run) return run.error();
-  const Result<void> same = check_same_world(*run, path, world);
+  const Result<void> same = check_same_game(*run, path, world);
   if (!same) return same.error();
   const std::string reason = unsound(*run);
   if (!reason.empty()) return Error{path, 0, 0, "no policy to judge: " + reason, ""};
   return run;
+}
+
+// By the names of states and actions; states that `from` does not have get none.
+std::vector<Action> in_names_of(const Mdp& to, const Mdp& from, std::span<const Action> actions) {
+  std::vector<Action> out(to.states(), no_action);
+  for (State s = 0; s < to.states(); ++s) {
+    const std::optional<State> known = from.find_state(to.state_name(s));
+    if (to.terminal(s) || !known || actions[*known] == no_action) continue;
+    const std::string name = from.action_name(from.choice_begin(*known) + actions[*known]);
+    for (Action a = 0; a < to.actions(s); ++a) {
+      if (to.action_name(to.choice_begin(s) + a) == name) out[s] = a;
+    }
+  }
+  return out;
+}
+
+// Of a run that passed check_same_game() and has a table.
+std::vector<Action> table_of(const Run& run, const World& world) {
+  std::vector<Action> actions = greedy_policy(run.trainings().front().learner().estimates());
+  if (!world.mdp || same_world(run.world(), world)) return actions;
+  return in_names_of(*world.mdp, *run.world().mdp, actions);
 }
 
 Result<std::vector<Action>> read_run_policy(const std::string& path, const World& world) {
@@ -186,7 +208,17 @@ Result<std::vector<Action>> read_run_policy(const std::string& path, const World
   if (!run) return run.error();
   const std::string reason = no_table(*run);
   if (!reason.empty()) return Error{path, 0, 0, reason, ""};
-  return greedy_policy(run->trainings().front().learner().estimates());
+  return table_of(*run, world);
+}
+
+// The model whose states a file may name: of a game against somebody that of all its boards, since
+// a policy may know what to do against others as well.
+Result<std::shared_ptr<const Mdp>> nameable(const World& world) {
+  if (const std::optional<Parameters> parameters = without_opponent(world)) {
+    const Result<World> all = find_world(world.name, *parameters);
+    if (all && all->mdp) return all->mdp;
+  }
+  return listed(world);
 }
 
 }  // namespace
@@ -194,16 +226,21 @@ Result<std::vector<Action>> read_run_policy(const std::string& path, const World
 Result<std::vector<Action>> read_policy(const std::string& path, const World& world) {
   const std::string file = run_file(path);
   if (file.ends_with(".quoll")) return read_run_policy(file, world);
-  const Result<std::shared_ptr<const Mdp>> states = listed(world);
+  const Result<std::shared_ptr<const Mdp>> states = nameable(world);
   if (!states) {
     return Error{"--policy", 0, 0,
                  "uniform or a saved run (.quoll) expected: " + states.error().expected, ""};
   }
-  if (file.ends_with(".csv")) return read_csv_policy(file, **states);
-  if (file.ends_with(".json")) return read_json_policy(file, **states);
-  return Error{"--policy", 0, 0,
-               "uniform or a file that ends in .csv, .json or .quoll expected, not '" + path + "'",
-               nearest(path, std::vector<std::string>{"uniform"})};
+  if (!file.ends_with(".csv") && !file.ends_with(".json")) {
+    return Error{
+        "--policy", 0, 0,
+        "uniform or a file that ends in .csv, .json or .quoll expected, not '" + path + "'",
+        nearest(path, std::vector<std::string>{"uniform"})};
+  }
+  Result<std::vector<Action>> actions =
+      file.ends_with(".csv") ? read_csv_policy(file, **states) : read_json_policy(file, **states);
+  if (!actions || !world.mdp || *states == world.mdp) return actions;
+  return in_names_of(*world.mdp, **states, *actions);
 }
 
 Result<std::unique_ptr<Policy>> read_acting(const std::string& path, const World& world) {
@@ -211,7 +248,8 @@ Result<std::unique_ptr<Policy>> read_acting(const std::string& path, const World
   if (file.ends_with(".quoll")) {
     const Result<Run> run = read_run(file, world);
     if (!run) return run.error();
-    return run->trainings().front().learner().policy();
+    if (!no_table(*run).empty()) return run->trainings().front().learner().policy();
+    return std::unique_ptr<Policy>(std::make_unique<TablePolicy>(table_of(*run, world)));
   }
   Result<std::vector<Action>> actions = read_policy(path, world);
   if (!actions) return actions.error();

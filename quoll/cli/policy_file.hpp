@@ -17,6 +17,8 @@ namespace quoll::cli {
 ///           row per state; an empty action = none
 ///   .json   what learn, solve and export write: a list "policy" or "values" with state and action
 ///   .quoll  a saved run of the same model: greedy among the actions its first seed visited
+/// In a game against somebody a policy of the same game with another opponent will do, such as one
+/// learned by playing oneself: states and actions are found by name.
 /// Actions are names or numbers from 0. Errors: one line with the place and the nearest name.
 Result<std::vector<Action>> read_policy(const std::string& path, const World& world);
 
