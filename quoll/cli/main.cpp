@@ -186,7 +186,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   // A file beyond the size limit is then a failed write, with its line, and not the end.
   std::signal(SIGXFSZ, SIG_IGN);
-  quoll::set_policy_reader(quoll::cli::opponent_text);
+  quoll::set_policy_reader(quoll::cli::opponent_policy);
   try {
     return quoll::cli::run(argc, argv);
   } catch (const std::bad_alloc&) {

@@ -1,8 +1,15 @@
 #include "quoll/cli/opponent_file.hpp"
 
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "quoll/act/policy.hpp"
 #include "quoll/base/file.hpp"
 #include "quoll/base/json_tree.hpp"
 #include "quoll/cli/judged_run.hpp"
+#include "quoll/cli/same_world.hpp"
 #include "quoll/experiment/run.hpp"
 #include "quoll/model/formats/fields.hpp"
 #include "quoll/report/export_policy.hpp"
@@ -10,8 +17,27 @@
 namespace quoll::cli {
 namespace {
 
-Result<std::string> run_text(const std::string& path, std::string_view world) {
-  const Result<Run> run = Run::load(path, false);
+// A run's policy as somebody who sees; the run stays as long as anybody plays.
+SeeingPlayer seeing(Run run) {
+  const auto kept = std::make_shared<const Run>(std::move(run));
+  return SeeingPlayer([kept]() -> SeeingPlayer::Act {
+    const std::shared_ptr<const Policy> policy = kept->trainings().front().learner().policy();
+    return [policy, seen = std::vector<float>()](std::span<const float> observation) mutable {
+      seen.assign(observation.begin(), observation.end());
+      State state = 0;
+      Action action = no_action;
+      Experience now;
+      now.state = {&state, 1};
+      now.observation = seen;
+      policy->act(now, {&action, 1}, {});
+      return action;
+    };
+  });
+}
+
+Result<SavedPolicy> run_policy(const std::string& path, std::string_view world,
+                               const Parameters& parameters) {
+  Result<Run> run = Run::load(path, false);
   if (!run) return run.error();
   if (run->world().name != world) {
     return Error{path, 0, 0,
@@ -19,10 +45,13 @@ Result<std::string> run_text(const std::string& path, std::string_view world) {
   }
   const std::string reason = unsound(*run);
   if (!reason.empty()) return Error{path, 0, 0, "no policy to play by: " + reason, ""};
-  const std::string missing = no_table(*run);
-  if (!missing.empty()) return Error{path, 0, 0, "no policy to play by: " + missing, ""};
+  if (!no_table(*run).empty()) {
+    const Result<void> same = check_opponent(*run, path, world, parameters);
+    if (!same) return same.error();
+    return SavedPolicy{"", seeing(std::move(*run))};
+  }
   const std::vector<Action> actions = greedy_policy(run->trainings().front().learner().estimates());
-  return policy_csv({run->world().mdp.get(), actions, "", {}});
+  return SavedPolicy{policy_csv({run->world().mdp.get(), actions, "", {}}), {}};
 }
 
 // The text of a name, or the number of an action.
@@ -58,8 +87,12 @@ Result<std::string> json_rows(const std::string& path) {
 
 }  // namespace
 
-Result<std::string> opponent_text(const std::string& path, std::string_view world) {
-  return path.ends_with(".quoll") ? run_text(path, world) : json_rows(path);
+Result<SavedPolicy> opponent_policy(const std::string& path, std::string_view world,
+                                    const Parameters& parameters) {
+  if (path.ends_with(".quoll")) return run_policy(path, world, parameters);
+  Result<std::string> rows = json_rows(path);
+  if (!rows) return rows.error();
+  return SavedPolicy{std::move(*rows), {}};
 }
 
 }  // namespace quoll::cli

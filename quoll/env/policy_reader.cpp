@@ -17,9 +17,14 @@ bool names_a_policy(std::string_view text) {
   return text.ends_with(".csv") || text.ends_with(".json") || text.ends_with(".quoll");
 }
 
-Result<std::string> read_policy_text(const std::string& path, std::string_view world) {
-  if (path.ends_with(".csv")) return read_file(path);
-  if (reader_in_use != nullptr) return reader_in_use(path, world);
+Result<SavedPolicy> read_saved_policy(const std::string& path, std::string_view world,
+                                      const Parameters& parameters) {
+  if (path.ends_with(".csv")) {
+    Result<std::string> rows = read_file(path);
+    if (!rows) return rows.error();
+    return SavedPolicy{std::move(*rows), {}};
+  }
+  if (reader_in_use != nullptr) return reader_in_use(path, world, parameters);
   return Error{path, 0, 0, "a file .csv expected: this program reads no other policies", ""};
 }
 

@@ -47,20 +47,26 @@ struct OpponentSettings {
   Result<Opponent> kind(bool has_perfect) const;
 };
 
-/// The moves of a policy file: greedy on what was saved.
+/// The moves of a policy file: greedy on what was saved. A policy that knows no rows but what is
+/// observed is kept as a player, for games that show it: `Game::observe`.
 template <class Game>
 class SavedMoves {
  public:
   using Board = typename Game::Board;
 
-  /// `world` is the game's name as a world. Error: file, line, what is no position or move of it.
+  /// `world` is the game's name as a world, `parameters` what was given for it. Error: file, line,
+  /// what is no position or move of it.
   static Result<SavedMoves> read(const Game& game, std::string_view world,
-                                 const OpponentSettings& settings) {
+                                 const OpponentSettings& settings, const Parameters& parameters) {
     SavedMoves saved(game, settings);
     const std::string& path = settings.opponent;
-    const Result<std::string> content = read_policy_text(path, world);
+    Result<SavedPolicy> content = read_saved_policy(path, world, parameters);
     if (!content) return content.error();
-    Lines lines(*content);
+    if (content->player) {
+      saved.player_ = std::move(content->player);
+      return saved;
+    }
+    Lines lines(content->rows);
     std::string_view line;
     bool header = true;
     while (lines.next(line)) {
@@ -93,6 +99,8 @@ class SavedMoves {
     if (found == moves_.end()) return std::nullopt;
     return found->second;
   }
+  /// Who moves instead, with no table: then no board is unknown.
+  const SeeingPlayer& player() const { return player_; }
   /// The answer as a model takes it.
   Result<Reply> reply(const Board& at) const {
     if (const std::optional<std::uint32_t> said = move(at)) return Reply{{*said, 1.0}};
@@ -128,6 +136,7 @@ class SavedMoves {
 
   Game game_;
   OpponentSettings settings_;
+  SeeingPlayer player_;
   std::unordered_map<std::uint64_t, std::uint32_t> moves_;  // by key; only looked up
 };
 

@@ -6,8 +6,9 @@
 // and observations are those of the player to move. Whoever connects earns 1. opponent=uniform or a
 // file: the learner has the side `mark`, the answer is part of the step, and reward -1 when that
 // wins. uniform answers in any open column; a file is a policy with the names of this world, as
-// `play --policy` takes it; where it says nothing unknown=uniform takes any open column. A draw
-// earns 0. A stone into a full column loses at once, reward -1.
+// `play --policy` takes it; where it says nothing unknown=uniform takes any open column. A saved
+// network as an opponent is asked on every board, for what it would observe there. A draw earns 0.
+// A stone into a full column loses at once, reward -1; so it does for a network as an opponent.
 //
 // Observation {rows, columns, 2}, the top row first: 1 where a stone of the player to move lies,
 // then 1 where one of the other lies. JSON state: {"board": "......./.../... x"}: the cells, the
@@ -66,6 +67,7 @@ struct ConnectFourWorld {
   Opponent opponent = Opponent::self;
   Side mark = Side::x;
   std::shared_ptr<const Saved> saved = nullptr;  // with an opponent from a file
+  SeeingPlayer player = {};                      // that has no table
 
   Spaces spaces() const {
     const auto rows = static_cast<std::uint32_t>(game.rows);
@@ -74,7 +76,7 @@ struct ConnectFourWorld {
   }
   Position start(auto& dice) const {
     Position at{game, game.begin(), Outcome::running};
-    if (opponent != Opponent::self && mark == Side::o) put(at, answer(at.stones, dice));
+    if (opponent != Opponent::self && mark == Side::o) respond(at, dice);
     return at;
   }
   Feedback step(Position& at, Action action, auto& dice) const {
@@ -85,9 +87,7 @@ struct ConnectFourWorld {
       return {-1.0, true, false, false};
     }
     put(at, action);
-    if (at.outcome == Outcome::running && opponent != Opponent::self) {
-      put(at, answer(at.stones, dice));
-    }
+    if (at.outcome == Outcome::running && opponent != Opponent::self) respond(at, dice);
     const bool over = at.outcome != Outcome::running;
     const double reward = at.outcome == board::won_by(own)                 ? 1.0
                           : at.outcome == board::won_by(board::other(own)) ? -1.0
@@ -104,8 +104,19 @@ struct ConnectFourWorld {
   }
 
  private:
-  // The opponent's column: as the file says, else any open one.
+  void respond(Position& at, auto& dice) const {
+    const std::uint32_t column = answer(at.stones, dice);
+    if (column < game.columns && game.legal(at.stones, column)) return put(at, column);
+    at.outcome = board::won_by(board::other(game.to_move(at.stones)));
+  }
+  // The opponent's column: as the file says, else any open one. A player without a table may choose
+  // a full one.
   std::uint32_t answer(const ConnectFour::Board& at, auto& dice) const {
+    if (player) {
+      std::vector<float> seen(spaces().observation);
+      game.observe(at, seen);
+      return player(seen);
+    }
     if (saved) {
       if (const std::optional<std::uint32_t> said = saved->move(at)) return *said;
     }
@@ -157,10 +168,12 @@ Result<board::Compiled<ConnectFour>> compile(const ConnectFour& game,
 // Boards without a model: what the opponent does must be known in every position.
 Result<World> played(const ConnectFour& game, const ConnectFourSettings& settings,
                      Opponent opponent, std::shared_ptr<const Saved> saved) {
-  if (saved && settings.unknown != board::Unknown::uniform) {
+  const SeeingPlayer player = saved ? saved->player() : SeeingPlayer();
+  if (saved && !player && settings.unknown != board::Unknown::uniform) {
     return Error{"--with unknown", 0, 0,
-                 "uniform expected: no file says what to do on every board of " +
-                     std::to_string(settings.rows * settings.columns) + " cells",
+                 "uniform expected: no table says what to do on every board of " +
+                     std::to_string(settings.rows * settings.columns) +
+                     " cells; a saved network does",
                  ""};
   }
   WorldFacts facts;
@@ -168,8 +181,8 @@ Result<World> played(const ConnectFour& game, const ConnectFourSettings& setting
   facts.traits.deterministic = opponent == Opponent::self;
   facts.traits.players = opponent == Opponent::self ? 2 : 1;
   facts.traits.reward_bounds = {-1.0, 1.0};
-  return to_world("connect-four", ConnectFourWorld{game, opponent, settings.mark, std::move(saved)},
-                  facts);
+  return to_world("connect-four",
+                  ConnectFourWorld{game, opponent, settings.mark, std::move(saved), player}, facts);
 }
 
 Result<World> make(const Parameters& parameters) {
@@ -188,7 +201,7 @@ Result<World> make(const Parameters& parameters) {
   const ConnectFour game{settings->rows, settings->columns, settings->connect};
   std::shared_ptr<const Saved> saved;
   if (*opponent == Opponent::file) {
-    Result<Saved> read = Saved::read(game, "connect-four", *settings);
+    Result<Saved> read = Saved::read(game, "connect-four", *settings, parameters);
     if (!read) return read.error();
     saved = std::make_shared<const Saved>(std::move(*read));
   }

@@ -134,7 +134,7 @@ struct TicTacToeSettings : board::OpponentSettings {
 
 using Model = board::Compiled<TicTacToe>;
 
-Result<Model> compile(const TicTacToeSettings& settings) {
+Result<Model> compile(const TicTacToeSettings& settings, const Parameters& parameters) {
   const TicTacToe game;
   board::Compiler compiler(game, settings.discount);
   const Result<Opponent> kind = settings.kind(true);
@@ -150,7 +150,7 @@ Result<Model> compile(const TicTacToeSettings& settings) {
     return compiler.against(settings.mark,
                             [&](TicTacToe::Board at) { return Result<Reply>(tree.best(at)); });
   }
-  const auto saved = board::SavedMoves<TicTacToe>::read(game, "tic-tac-toe", settings);
+  const auto saved = board::SavedMoves<TicTacToe>::read(game, "tic-tac-toe", settings, parameters);
   if (!saved) return saved.error();
   return compiler.against(settings.mark, [&](TicTacToe::Board at) { return saved->reply(at); });
 }
@@ -159,7 +159,7 @@ Result<World> make(const Parameters& parameters) {
   const Result<TicTacToeSettings> settings =
       read_parameters<TicTacToeSettings>("tic-tac-toe", parameters);
   if (!settings) return settings.error();
-  Result<Model> model = compile(*settings);
+  Result<Model> model = compile(*settings, parameters);
   if (!model) return model.error();
   const auto boards =
       std::make_shared<const std::vector<TicTacToe::Board>>(std::move(model->boards));

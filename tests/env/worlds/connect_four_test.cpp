@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "quoll/env/policy_reader.hpp"
+
 #include "played.hpp"
 
 namespace quoll::world_tests {
@@ -196,6 +198,41 @@ TEST(ConnectFour, APolicyFromAFileAnswers) {
   std::remove(path.c_str());
   EXPECT_EQ(refused("connect-four", {{"opponent", "perfect"}}).expected,
             "self, uniform or a file .csv, .json or .quoll expected, not 'perfect'");
+}
+
+// Always moves in the leftmost column in which a stone of the other side lies, else in the first.
+Result<SavedPolicy> follower(const std::string&, std::string_view world,
+                             const Parameters& parameters) {
+  EXPECT_EQ(world, "connect-four");
+  EXPECT_TRUE(gives(parameters, "opponent"));
+  return SavedPolicy{"", SeeingPlayer([]() -> SeeingPlayer::Act {
+                       return [](std::span<const float> seen) {
+                         Action column = 0;
+                         for (Action c = 7; c-- > 0;) {
+                           if (seen[(5 * 7 + c) * 2 + 1] == 1.0f) column = c;
+                         }
+                         return column;
+                       };
+                     })};
+}
+
+TEST(ConnectFour, APolicyThatSeesAnswers) {
+  set_policy_reader(follower);
+  const World first = game({{"opponent", "anybody.quoll"}});
+  const World second = game({{"opponent", "anybody.quoll"}, {"mark", "o"}});
+  set_policy_reader(nullptr);
+  Table table(first);
+  table.begin();
+  EXPECT_EQ(table.step(3), empty_rows + "......./...O.../...X... x");
+  EXPECT_FALSE(table.feedback.turn_passes);
+  Table other(second);
+  EXPECT_EQ(other.begin(), empty_rows + "......./......./X...... o");
+  EXPECT_EQ(other.step(4), empty_rows + "......./....X../X...O.. o");
+  // Into a full column it loses like anybody.
+  ASSERT_TRUE(table.put("...O.../...X.../...O.../...X.../...O.../...X... x"));
+  EXPECT_EQ(table.step(4), "...O.../...X.../...O.../...X.../...O.../...XX.. X won");
+  EXPECT_EQ(table.feedback.reward, 1.0);
+  EXPECT_TRUE(table.feedback.terminated);
 }
 
 // 161,029 positions of 4 x 4 with four in a row: OEIS A212693.
