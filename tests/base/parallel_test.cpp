@@ -87,7 +87,9 @@ TEST(Team, GoesStepByStep) {
       }
     });
     EXPECT_EQ(steps, std::vector<int>(most, 2000));
-    if (threads > 0) EXPECT_LE(most, threads);
+    if (threads > 0) {
+      EXPECT_LE(most, threads);
+    }
     EXPECT_LE(most, processors());
   }
 }
