@@ -189,7 +189,7 @@ class ChainProver {
     reward_size_ = std::max(std::fabs(low), std::fabs(high));
   }
 
-  std::optional<ChainValues> run(const Elimination& elimination) {
+  ChainValues run(const Elimination& elimination) {
     const std::size_t states = chain_.states();
     std::vector<double> b(states, 0.0);
     constexpr int rounds = 3;  // each gains the 10 digits or more that elimination keeps
@@ -213,7 +213,7 @@ class ChainProver {
     for (double factor = 1.001; factor < 10.0; factor *= 2.0) {
       if (grown(b, error, factor)) return bounds(error);
     }
-    return std::nullopt;
+    return unbounded_values(live_);
   }
 
  private:
@@ -286,6 +286,17 @@ class ChainProver {
 };
 
 }  // namespace
+
+ChainValues unbounded_values(const std::vector<std::uint8_t>& live) {
+  ChainValues out{std::vector<double>(live.size(), 0.0), {}};
+  out.upper = out.lower;
+  for (std::size_t s = 0; s < live.size(); ++s) {
+    if (live[s] == 0) continue;
+    out.lower[s] = -infinity;
+    out.upper[s] = infinity;
+  }
+  return out;
+}
 
 std::optional<ChainValues> eliminate_chain(const Mdp& chain, const std::vector<std::uint8_t>& live,
                                            const std::function<bool(std::uint64_t)>& keep_going) {

@@ -139,19 +139,12 @@ Evaluation evaluate_ending(const Mdp& chain, const std::vector<std::uint8_t>& fa
     return !stopped;
   };
   std::optional<ChainValues> values = eliminate_chain(chain, live, keep_going);
-  if (values) return {std::move(values->lower), std::move(values->upper)};
-  if (!stopped) {
+  if (!values && !stopped) {
     Solution solution = solve_ending(chain, settings, "policy-iteration");
     return {std::move(solution.lower), std::move(solution.upper)};
   }
-  Evaluation none{std::vector<double>(chain.states(), 0.0), {}};
-  none.upper = none.lower;
-  for (State s = 0; s < chain.states(); ++s) {
-    if (live[s] == 0) continue;
-    none.lower[s] = -infinity;
-    none.upper[s] = infinity;
-  }
-  return none;
+  if (!values) values = unbounded_values(live);
+  return {std::move(values->lower), std::move(values->upper)};
 }
 
 Result<Evaluation> evaluate_undiscounted(const Mdp& mdp, std::span<const double> choice_probability,

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "models.hpp"
 
@@ -115,6 +119,31 @@ TEST(Evaluate, FollowsLongWalksToTheirEnd) {
     EXPECT_LE(value->lower[s], -(1.0 * n * n - 1.0 * k * k));
     EXPECT_GE(value->upper[s], -(1.0 * n * n - 1.0 * k * k));
   }
+}
+
+// A walk that comes to its end after about 9^40 moves: no sweeping helps.
+TEST(Evaluate, GivesUpAtOnceWhereEpisodesHardlyEnd) {
+  constexpr int n = 40;
+  MdpBuilder b(1.0);
+  for (int k = 0; k < n; ++k) {
+    b.move(std::to_string(k), "down", std::to_string(std::max(k - 1, 0)), -1);
+    b.move(std::to_string(k), "up", std::to_string(k + 1), -1);
+  }
+  const Mdp mdp = test::built(b);
+  std::vector<double> mostly_down(mdp.choices(), 0.9);
+  for (State s = 0; s < mdp.states(); ++s) {
+    if (!mdp.terminal(s)) mostly_down[mdp.choice_begin(s) + 1] = 0.1;
+  }
+  std::uint64_t sweeps = 0;
+  const auto value = evaluate(mdp, mostly_down, 1.0, 1e-9, [&](const SolveProgress& now) {
+    sweeps = std::max(sweeps, now.sweeps);
+    return true;
+  });
+  ASSERT_TRUE(value);
+  EXPECT_FALSE(value->converged);
+  EXPECT_EQ(value->lower[0], -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(value->upper[0], std::numeric_limits<double>::infinity());
+  EXPECT_EQ(sweeps, 0u);
 }
 
 TEST(Evaluate, IsNotDoneWhereNothingIsKnown) {
