@@ -90,28 +90,35 @@ Extent Network::features() const {
 
 namespace {
 
-// Orthonormal columns by modified Gram-Schmidt; rows where there are fewer rows than columns.
-void orthogonal(std::size_t rows, std::size_t columns, Rng& rng, std::vector<double>& x) {
-  const bool tall = rows >= columns;
-  const std::size_t vectors = tall ? columns : rows, length = tall ? rows : columns;
-  const std::size_t next = tall ? 1 : columns, along = tall ? columns : 1;
-  for (double& value : x) value = draw_normal(rng);
-  for (std::size_t v = 0; v < vectors; ++v) {
-    double* const self = x.data() + v * next;
-    for (std::size_t u = 0; u <= v; ++u) {
-      const double* const other = x.data() + u * next;
-      double dot = 0.0;
-      for (std::size_t i = 0; i < length; ++i) dot += self[i * along] * other[i * along];
-      const double norm = std::sqrt(dot);
-      for (std::size_t i = 0; i < length; ++i) {
-        if (u == v) {
-          self[i * along] /= norm;
-        } else {
-          self[i * along] -= dot * other[i * along];
-        }
-      }
+// Makes columns orthonormal, by modified Gram-Schmidt. Golub, Van Loan 2013, section 5.2.8. Each
+// goes from all those after it at once, along the rows: a matrix may be larger than every cache.
+void orthogonalise(std::size_t rows, std::size_t columns, double* x) {
+  std::vector<double> dots(columns);
+  for (std::size_t u = 0; u < columns; ++u) {
+    double square = 0.0;
+    for (std::size_t i = 0; i < rows; ++i) square += x[i * columns + u] * x[i * columns + u];
+    const double norm = std::sqrt(square);
+    std::fill(dots.begin(), dots.end(), 0.0);
+    for (std::size_t i = 0; i < rows; ++i) {
+      double* const row = x + i * columns;
+      row[u] /= norm;
+      for (std::size_t v = u + 1; v < columns; ++v) dots[v] += row[v] * row[u];
+    }
+    for (std::size_t i = 0; i < rows; ++i) {
+      double* const row = x + i * columns;
+      for (std::size_t v = u + 1; v < columns; ++v) row[v] -= dots[v] * row[u];
     }
   }
+}
+
+// Orthonormal columns; rows where there are fewer rows than columns.
+void orthogonal(std::size_t rows, std::size_t columns, Rng& rng, std::vector<double>& x) {
+  for (double& value : x) value = draw_normal(rng);
+  if (rows >= columns) return orthogonalise(rows, columns, x.data());
+  std::vector<double> turned(x.size());
+  for (std::size_t k = 0; k < x.size(); ++k) turned[k % columns * rows + k / columns] = x[k];
+  orthogonalise(columns, rows, turned.data());
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] = turned[k % columns * rows + k / columns];
 }
 
 // Of the inputs of each output, in a random order, the first nine in ten become 0.
