@@ -243,6 +243,25 @@ void Pass::forward(const float* parameters, const float* input, std::size_t row,
   samples_ = samples;
   input_ = {input, row};
   look_for_spots();
+  forward_all(parameters);
+}
+
+void Pass::forward(const float* parameters, std::span<const std::uint32_t> ones) {
+  if (zeros_.size() == 0) zeros_ = Floats(network_.inputs());
+  samples_ = 1;
+  input_ = {zeros_.data(), network_.inputs()};
+  sparse_ = !spots_.empty() && ones.size() <= network_.inputs() / sparse_share;
+  if (sparse_) {
+    std::copy(ones.begin(), ones.end(), spots_.begin());
+    spots_begin_[0] = 0;
+    spots_begin_[1] = ones.size();
+  }
+  for (const std::uint32_t at : ones) zeros_[at] = 1.0f;
+  forward_all(parameters);
+  for (const std::uint32_t at : ones) zeros_[at] = 0.0f;
+}
+
+void Pass::forward_all(const float* parameters) {
   for (std::size_t i = 0; i < stages_.size(); ++i) forward(stages_[i], read_by(i), parameters);
 }
 

@@ -45,6 +45,9 @@ class Pass {
   /// Computes all heads for `samples` rows of inputs, `row` floats apart. The inputs must stay as
   /// they are until backward().
   void forward(const float* parameters, const float* input, std::size_t row, std::size_t samples);
+  /// The same for one sample that is 1 at `ones`, ascending, and 0 elsewhere: its zeros are neither
+  /// written nor read. No backward() follows.
+  void forward(const float* parameters, std::span<const std::uint32_t> ones);
   /// What head `head` gave: rows of outputs, output_row(head) floats apart.
   const float* output(std::size_t head) const;
   std::size_t output_row(std::size_t head) const;
@@ -76,6 +79,7 @@ class Pass {
 
   void add_up(Stage& stage, Read from, const float* parameters, float* sums);
   void forward(Stage& stage, Read from, const float* parameters);
+  void forward_all(const float* parameters);
   void backward(Stage& stage, Read from, const float* parameters, float* gradients);
   void pass_on(std::span<const std::size_t> readers, const float* parameters, Stage& before);
   void turn(const Stage& reader, Part part, const float* parameters, bool add);
@@ -92,6 +96,7 @@ class Pass {
   std::size_t most_, samples_ = 0;
   std::vector<Stage> stages_;
   Read input_{};
+  Floats zeros_;  // a sample, where forward() was told of ones
   // Where the inputs are not 0, if they mostly are: sample i's from spots_begin_[i] on.
   bool sparse_ = false;
   std::vector<std::uint32_t> spots_;

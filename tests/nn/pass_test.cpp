@@ -311,6 +311,32 @@ TEST(Pass, ARowOfABatchHasTheBitsOfTheRowAlone) {
   }
 }
 
+// Also the second time, when the ones of the first have to be gone.
+TEST(Pass, ARowToldByItsOnesHasTheBitsOfTheRowWritten) {
+  for (const Example& example : examples()) {
+    SCOPED_TRACE(example.name);
+    on_every_target([&] {
+      const Work work(example.spec, 3);
+      Pass told(work.network, 1, false), written(work.network, 1, false);
+      const auto inputs = static_cast<std::uint32_t>(work.network.inputs());
+      for (const std::uint32_t step : {inputs, 5u, 1u, 3u}) {  // the third is dense
+        std::vector<std::uint32_t> ones;
+        std::vector<float> row(inputs, 0.0f);
+        for (std::uint32_t at = inputs - 1; at < inputs; at -= step) ones.insert(ones.begin(), at);
+        for (const std::uint32_t at : ones) row[at] = 1.0f;
+        told.forward(work.parameters.data(), ones);
+        written.forward(work.parameters.data(), row.data(), inputs, 1);
+        for (std::size_t h = 0; h < work.network.heads(); ++h) {
+          const std::size_t width = told.output_row(h);
+          EXPECT_EQ(std::vector<float>(told.output(h), told.output(h) + width),
+                    std::vector<float>(written.output(h), written.output(h) + width))
+              << step;
+        }
+      }
+    });
+  }
+}
+
 TEST(Pass, NoSampleHasNoGradient) {
   for (const Example& example : examples()) {
     SCOPED_TRACE(example.name);

@@ -45,15 +45,15 @@ class Inputs {
     }
   }
 
+  /// The inputs that are 1 for a numbered state, ascending; valid as long as `state` is.
+  std::span<const std::uint32_t> ones(const State& state) const {
+    return letters_ ? letters_->of(state) : std::span<const std::uint32_t>(&state, 1);
+  }
   /// Writes size() floats for a numbered state, or for the size() numbers that were observed.
   void write(State state, std::span<const float> observation, std::span<float> out) const {
     if (numbered_) {
       std::fill(out.begin(), out.end(), 0.0F);
-      if (letters_) {
-        for (const std::uint32_t spot : letters_->of(state)) out[spot] = 1.0F;
-      } else {
-        out[state] = 1.0F;
-      }
+      for (const std::uint32_t spot : ones(state)) out[spot] = 1.0F;
     } else {
       read(observation, out);
     }

@@ -149,12 +149,11 @@ Estimates NetworkLearner::estimates() const {
   Estimates out;
   if (!inputs_.numbered()) return out;
   const std::unique_ptr<QFunction> q = q_->snapshot();
-  nn::Floats row(inputs_.size()), values(actions_ * q->atoms());
+  nn::Floats values(actions_ * q->atoms());
   std::vector<float> mean(actions_);
   out.row_begin = row_begin_;
   for (State s = 0; s + 1 < row_begin_.size(); ++s) {
-    inputs_.write(s, {}, row.span());
-    q->values(QFunction::Weights::online, row.data(), 1, values.data());
+    q->values(inputs_.ones(s), values.data());
     means(values.data(), mean);
     out.foreseen.push_back(walkers_.ends_in(s) ? 0 : 1);
     for (Action a = 0; a < row_begin_[s + 1] - row_begin_[s]; ++a) {
@@ -186,13 +185,14 @@ std::shared_ptr<const LearnedNetwork> NetworkLearner::network() const {
   const std::shared_ptr<QFunction> q = q_->snapshot();
   out->values = [q, inputs = inputs_, mean = distribution_, scale = out->value_scale](
                     State state, std::span<const float> observation, std::span<float> values) {
-    nn::Floats row(inputs.size()), outputs(q->actions() * q->atoms());
+    nn::Floats outputs(q->actions() * q->atoms());
     if (observation.empty()) {
-      inputs.write(state, observation, row.span());
+      q->values(inputs.ones(state), outputs.data());
     } else {
+      nn::Floats row(inputs.size());
       inputs.read(observation, row.span());
+      q->values(QFunction::Weights::online, row.data(), 1, outputs.data());
     }
-    q->values(QFunction::Weights::online, row.data(), 1, outputs.data());
     for (std::size_t a = 0; a < values.size(); ++a) {
       const float value = mean.mean(outputs.span().subspan(a * q->atoms(), q->atoms()));
       values[a] = static_cast<float>(double{value} / scale);

@@ -116,6 +116,18 @@ class QNetwork final : public QFunction {
     }
   }
 
+  void values(std::span<const std::uint32_t> ones, float* out) override {
+    const bool joint = layout_ == NetworkLayout::joint;
+    const float* const weights = online_.weights();
+    ones_.assign(ones.begin(), ones.end());
+    if (joint) ones_.push_back(0);
+    for (std::size_t a = 0; a < actions_; ++a, out += atoms_) {
+      if (joint) ones_.back() = static_cast<std::uint32_t>(own_ + a);
+      if (joint || a == 0) pass_.forward(weights, ones_);
+      read(pass_, 0, a, out);
+    }
+  }
+
   void predict(const float* inputs, std::size_t rows, const Action* actions, float* out) override {
     const float* from = inputs;
     std::size_t width = own_;
@@ -312,6 +324,7 @@ class QNetwork final : public QFunction {
   nn::Traces traces_;
   nn::Pass pass_, learning_;
   nn::Floats wide_, wide_learning_;  // joint: inputs with their actions
+  std::vector<std::uint32_t> ones_;
   std::vector<Action> chosen_;
   std::size_t batch_ = 0;
 };

@@ -70,6 +70,23 @@ TEST(QNetwork, ValuesOfManyRowsAreThoseOfEach) {
   }
 }
 
+TEST(QNetwork, ValuesOfOnesAreThoseOfTheRowWithItsZeros) {
+  for (const Variant& variant : layouts()) {
+    for (const std::uint32_t atoms : {1u, 7u}) {
+      const auto q = *make_q_network(setup_of(variant.settings, atoms), 1, 1, false);
+      std::vector<float> told(3 * atoms), written(3 * atoms);
+      for (const std::vector<std::uint32_t>& ones :
+           {std::vector<std::uint32_t>{4}, {0, 2}, {}, {1}}) {
+        std::vector<float> row(5, 0.0F);
+        for (const std::uint32_t at : ones) row[at] = 1.0F;
+        q->values(ones, told.data());
+        q->values(QFunction::Weights::online, row.data(), 1, written.data());
+        EXPECT_EQ(told, written) << variant.name;
+      }
+    }
+  }
+}
+
 TEST(NameLetters, AreCodePointsAtTheirPlaces) {
   MdpBuilder builder(0.9);
   builder.move("äx1", "go", "öx2").move("öx2", "go", "END", 1).start("äx1");
