@@ -13,13 +13,22 @@
 namespace quoll {
 namespace {
 
-// The value as the text a flag would have had; nothing for a list, a table or a date.
+// The value as the text a flag would have had: of a list, its values between commas. Nothing for a
+// table, a date, or an empty list.
 std::optional<std::string> text_of_node(const toml::node& node) {
   if (const auto* text = node.as_string()) return text->get();
   if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
   if (const auto* whole = node.as_integer()) return std::to_string(whole->get());
   if (const auto* number = node.as_floating_point()) return shortest(number->get());
-  return std::nullopt;
+  const auto* list = node.as_array();
+  if (!list) return std::nullopt;
+  std::optional<std::string> all;
+  for (const toml::node& one : *list) {
+    const std::optional<std::string> text = text_of_node(one);
+    if (!text || one.is_array()) return std::nullopt;
+    all = all ? *all + "," + *text : *text;
+  }
+  return all;
 }
 
 // A TOML string: literal where that is possible, so that it reads like the word itself.
@@ -61,8 +70,9 @@ Result<void> read_config(const std::string& path, const std::vector<Setting>& se
     const std::string place = path + ":" + std::to_string(where.line) + ": " + name;
     const std::optional<std::string> text = text_of_node(node);
     if (!text) {
-      return Error{place, 0, 0, "a number, a word or true or false expected: " + range_of(*setting),
-                   ""};
+      return Error{
+          place, 0, 0,
+          "a number, a word, true or false, or a list of such expected: " + range_of(*setting), ""};
     }
     const Result<void> assigned = assign(*setting, *text, place);
     if (!assigned) return assigned;
