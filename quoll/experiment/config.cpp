@@ -13,19 +13,21 @@
 namespace quoll {
 namespace {
 
-// The value as the text a flag would have had: of a list, its values between commas. Nothing for a
-// table, a date, or an empty list.
+// The value as the text a flag would have had; nothing for a list, a table or a date.
 std::optional<std::string> text_of_node(const toml::node& node) {
   if (const auto* text = node.as_string()) return text->get();
   if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
   if (const auto* whole = node.as_integer()) return std::to_string(whole->get());
   if (const auto* number = node.as_floating_point()) return shortest(number->get());
-  const auto* list = node.as_array();
-  if (!list) return std::nullopt;
+  return std::nullopt;
+}
+
+// The values of a list with commas between them; nothing if there is none, or one is no text.
+std::optional<std::string> text_of_list(const toml::array& list) {
   std::optional<std::string> all;
-  for (const toml::node& one : *list) {
-    const std::optional<std::string> text = text_of_node(one);
-    if (!text || one.is_array()) return std::nullopt;
+  for (const toml::node& node : list) {
+    const std::optional<std::string> text = text_of_node(node);
+    if (!text) return std::nullopt;
     all = all ? *all + "," + *text : *text;
   }
   return all;
@@ -68,11 +70,12 @@ Result<void> read_config(const std::string& path, const std::vector<Setting>& se
       return Error{path, where.line, where.column, "no setting '" + name + "'", nearest.best()};
     }
     const std::string place = path + ":" + std::to_string(where.line) + ": " + name;
-    const std::optional<std::string> text = text_of_node(node);
+    const bool words = std::holds_alternative<std::string*>(setting->field);
+    const std::optional<std::string> text =
+        words && node.is_array() ? text_of_list(*node.as_array()) : text_of_node(node);
     if (!text) {
-      return Error{
-          place, 0, 0,
-          "a number, a word, true or false, or a list of such expected: " + range_of(*setting), ""};
+      return Error{place, 0, 0, "a number, a word or true or false expected: " + range_of(*setting),
+                   ""};
     }
     const Result<void> assigned = assign(*setting, *text, place);
     if (!assigned) return assigned;

@@ -107,8 +107,9 @@ TEST(Settings, AFileSaysWhatIsWrongAndWhere) {
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().line, 2u);
   EXPECT_EQ(unknown.error().nearest, "method");
-  for (const char* text : {"seed = -1", "discount = 2", "step_size = [1]", "seed = 1979-05-27",
-                           "[seed]\na = 1", "ties = 'never'", "seed = ", "force = 'maybe'"}) {
+  for (const char* text :
+       {"seed = -1", "discount = 2", "seed = [1]", "step_size = [[1]]", "seed = 1979-05-27",
+        "[seed]\na = 1", "ties = 'never'", "seed = ", "force = 'maybe'"}) {
     const auto wrong = read_text(std::string(text) + "\n", settings);
     EXPECT_FALSE(wrong) << text;
     if (wrong) continue;

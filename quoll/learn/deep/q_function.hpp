@@ -27,8 +27,8 @@ class QFunction {
 
   /// All outputs of each row.
   virtual void values(Weights which, const float* inputs, std::size_t rows, float* out) = 0;
-  /// All outputs, by the online weights, of one row that is 1 at `ones`, ascending, and 0 elsewhere:
-  /// what such a row gives, without its zeros.
+  /// All outputs, by the online weights, of one row that is 1 at `ones`, ascending, and 0
+  /// elsewhere; its zeros cost nothing.
   virtual void values(std::span<const std::uint32_t> ones, float* out) = 0;
   /// The outputs of one action of each row, by the online weights: rows x atoms(). Remembers the
   /// batch; the inputs must stay until update().
