@@ -143,7 +143,8 @@ std::string missed(const Evaluated& of) {
   const std::string from = s < of.mdp.states() ? " from " + of.mdp.state_name(s) : "";
   if (interrupted()) return "not decided: stopped before anything was certain\n";
   return "not decided: the value" + from +
-         " could not be bounded: episodes may never end and gain and lose on the way, or end "
+         " could not be bounded on both sides: episodes may never end and gain and lose on the "
+         "way, or end "
          "after too many moves to tell; a discount below 1 makes the values finite\n";
 }
 

@@ -213,10 +213,45 @@ class ChainProver {
     for (double factor = 1.001; factor < 10.0; factor *= 2.0) {
       if (grown(b, error, factor)) return bounds(error);
     }
-    return unbounded_values(live_);
+    return of_first_moves();
   }
 
  private:
+  // What the first moves earn bounds the whole where rewards have one sign.
+  ChainValues of_first_moves() const {
+    ChainValues out = unbounded_values(live_);
+    const auto [low, high] = chain_.reward_bounds();
+    if (high <= 0.0) out.upper = fallen(1.0);
+    if (low >= 0.0) {
+      out.lower = fallen(-1.0);
+      for (double& x : out.lower) x = -x;
+    }
+    return out;
+  }
+
+  // x >= sign * V, which is at most 0: from x = 0 on, as every sweep keeps it.
+  std::vector<double> fallen(double sign) const {
+    constexpr std::uint64_t work = 20'000'000, most_sweeps = 10'000;
+    std::vector<double> x(chain_.states(), 0.0);
+    const std::uint64_t sweeps = std::min(most_sweeps, work / (chain_.outcomes() + 1));
+    for (std::uint64_t k = 0; k < sweeps; ++k) {
+      for (State s = 0; s < chain_.states(); ++s) {
+        if (live_[s] == 0) continue;
+        const std::uint64_t c = chain_.choice_begin(s);
+        double sum = sign * chain_.reward(c), outcomes = 0.0;
+        for (std::uint64_t o = chain_.outcome_begin(c); o < chain_.outcome_end(c); ++o) {
+          const double p = chain_.probability(o);
+          const double least = meant_exactly(p) ? p : p * (1.0 - 16.0 * half_ulp);
+          sum = add_up(sum, scale_up(least, x[chain_.next(o)]));
+          outcomes += 1.0;
+        }
+        // Rewards were averaged with rounding.
+        x[s] = std::min(x[s], add_up(sum, (outcomes + 3.0) * 2.0 * half_ulp * reward_size_));
+      }
+    }
+    return x;
+  }
+
   // rho of one state and what is not known of it.
   Doubtful residual(State s) const {
     const std::uint64_t c = chain_.choice_begin(s);

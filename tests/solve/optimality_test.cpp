@@ -130,6 +130,23 @@ TEST(Optimality, NeverEndingAtDiscountOneIsNotOptimal) {
   EXPECT_EQ(good.regret, 0.0);
 }
 
+// It ends, but after about 9^40 moves: no double holds a bound on what it loses.
+TEST(Optimality, HardlyEverEndingIsNotOptimal) {
+  MdpBuilder b(1.0);
+  for (int k = 0; k < 40; ++k) {
+    const std::string here = std::to_string(k), on = std::to_string(k + 1);
+    b.move(here, "down", std::to_string(std::max(k - 1, 0)), -1, 0.9);
+    b.move(here, "down", on, -1, 0.1).move(here, "up", on, -1);
+  }
+  b.start("0");
+  const Mdp mdp = test::built(b);
+  const auto exact = solve(mdp);
+  ASSERT_TRUE(exact);
+  const Optimality judged = judge(mdp, *exact, first_actions(mdp), mdp.start(), 1.0);
+  EXPECT_EQ(judged.optimal, std::optional(false)) << judged.proof;
+  EXPECT_EQ(judge(mdp, *exact, exact->policy, mdp.start(), 1.0).optimal, std::optional(true));
+}
+
 TEST(Optimality, DecidesDeterministicModelsWhoeverSolvedThem) {
   // A by B: 1 + 0.8 * 100 = 81, by C: 2 + 0.8 * 90 = 74. Bounds 30 wide cannot tell 7 from none.
   MdpBuilder b(0.8);
