@@ -84,7 +84,7 @@ class Distil final : public NetworkLearner {
     withheld_.assign(row_begin_.size() - 1, 0);
     for (State s = 0; s + 1 < row_begin_.size(); ++s) {
       for (std::uint64_t c = row_begin_[s]; c < row_begin_[s + 1]; ++c) {
-        visits_[s * deep_.spaces.actions + (c - row_begin_[s])] = table.visits[c];
+        visits_[c] = table.visits[c];
       }
     }
     list_pairs();
@@ -124,9 +124,7 @@ class Distil final : public NetworkLearner {
   void list_pairs();
   void reshuffle();
   bool agrees();
-  std::uint32_t visits(State s, std::size_t a) const {
-    return visits_[s * deep_.spaces.actions + a];
-  }
+  std::uint32_t visits(State s, std::size_t a) const { return visits_[row_begin_[s] + a]; }
 
   bool until_agreed_;
   std::size_t batch_;
@@ -209,8 +207,7 @@ bool Distil::agrees() {
       const std::uint64_t n = row_begin_[s + 1] - row_begin_[s];
       const float* const q = outputs_part_.data() + i * actions_;
       put_in_order(s, outputs_part_.data() + i * actions_);
-      if (!*prefers_best(table_.data() + row_begin_[s], visits_.data() + s * deep_.spaces.actions,
-                         q, n)) {
+      if (!*prefers_best(table_.data() + row_begin_[s], visits_.data() + row_begin_[s], q, n)) {
         return false;
       }
       for (std::uint64_t a = 0; a < n; ++a) {

@@ -58,7 +58,7 @@ NetworkLearner::NetworkLearner(const LearnSetup& setup, const DeepSetup& deep,
       means_(actions_),
       row_begin_(inputs_.numbered() ? AnySource<float>::rows_of(*setup.world)
                                     : std::vector<std::uint64_t>()),
-      visits_(inputs_.numbered() ? deep.spaces.states * deep.spaces.actions : 0),
+      visits_(row_begin_.empty() ? 0 : row_begin_.back()),
       exploration_(setup.exploration),
       draws_(deep.walkers),
       here_(deep.walkers * inputs_.size()) {
@@ -101,11 +101,16 @@ void NetworkLearner::choose_actions(bool always) {
     q_->values(QFunction::Weights::online, here_.data(), lanes, outputs_.data());
   }
   const std::size_t row = actions_ * q_->atoms();
+  // Temperatures are in units of the world's values.
+  const bool weighs = exploration_.kind == Exploration::Kind::softmax ||
+                      exploration_.kind == Exploration::Kind::mellowmax;
+  const auto unit = static_cast<float>(weighs ? 1.0 / value_scale() : 1.0);
   for (std::uint32_t lane = 0; lane < lanes; ++lane) {
     const std::span<float> q = std::span(means_).first(walkers_.actions_now(lane));
     if (asked) {
       put_in_order(walkers_.now().state[lane], outputs_.data() + lane * row);
       means(outputs_.data() + lane * row, q);
+      for (float& value : q) value *= unit;
     }
     walkers_.actions()[lane] = choose(exploration_, q, draws_[lane], step).action;
   }
@@ -125,9 +130,10 @@ void NetworkLearner::put_in_order(State state, float* outputs) {
 void NetworkLearner::count_visits() {
   if (visits_.empty()) return;
   for (std::size_t lane = 0; lane < walkers_.count(); ++lane) {
-    std::uint32_t& count =
-        visits_[walkers_.now().state[lane] * deep_.spaces.actions + walkers_.now().action[lane]];
-    count += count < ~std::uint32_t{0};
+    const State state = walkers_.now().state[lane];
+    const std::uint64_t pair = row_begin_[state] + walkers_.now().action[lane];
+    if (pair >= row_begin_[state + 1]) continue;  // an end, where any action does nothing
+    visits_[pair] += visits_[pair] < ~std::uint32_t{0};
   }
 }
 
@@ -158,7 +164,7 @@ Estimates NetworkLearner::estimates() const {
     out.foreseen.push_back(walkers_.ends_in(s) ? 0 : 1);
     for (Action a = 0; a < row_begin_[s + 1] - row_begin_[s]; ++a) {
       out.q.push_back(double{mean[output_of(s, a)]} / value_scale());
-      out.visits.push_back(visits_[s * deep_.spaces.actions + a]);
+      out.visits.push_back(visits_[row_begin_[s] + a]);
     }
   }
   return out;
@@ -222,6 +228,21 @@ void NetworkLearner::persist(Archive& archive) {
   persist_own(archive);
 }
 
+namespace {
+
+// Whether a world that shows numbers has states beside them which offer different actions.
+bool hides_actions(const World& world) {
+  const std::unique_ptr<Environment> environment = world.make({});
+  const Spaces spaces = environment->spaces();
+  for (State s = 0; spaces.observation > 0 && s < spaces.states; ++s) {
+    const Action offered = environment->actions(s);
+    if (offered != 0 && offered != spaces.actions) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 Result<void> check_network(const LearnSetup& setup, const DeepHabits& habits) {
   using Kind = Exploration::Kind;
   if (setup.exploration.kind == Kind::ucb || setup.exploration.kind == Kind::count_bonus) {
@@ -229,6 +250,13 @@ Result<void> check_network(const LearnSetup& setup, const DeepHabits& habits) {
                  setup.method + " counts no visits of what it observes: no " +
                      std::string(setup.exploration.name()),
                  "epsilon-greedy"};
+  }
+  if (hides_actions(*setup.world)) {
+    return Error{"--method", 0, 0,
+                 "networks read the numbers that " + setup.world->name +
+                     " shows, and not which of its actions a state has; a world with the same "
+                     "actions everywhere expected",
+                 ""};
   }
   if (setup.deep.duelling && setup.deep.layout != NetworkLayout::shared) {
     return Error{"--duelling", 0, 0,

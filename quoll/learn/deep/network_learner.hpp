@@ -78,7 +78,7 @@ class NetworkLearner : public Learner {
   std::vector<float> means_;              // of the actions of one state
   std::vector<float> ordered_;            // of one row of outputs
   std::vector<std::uint64_t> row_begin_;  // of the estimates, where states are numbered
-  std::vector<std::uint32_t> visits_;     // per state and action, there
+  std::vector<std::uint32_t> visits_;     // per pair, there
   LearnProgress::Halt halt_ = LearnProgress::Halt::none;
 
  private:
