@@ -11,7 +11,8 @@ target_compile_options(quoll_options INTERFACE -Wall -Wextra -Wshadow -ffp-contr
                        -fvisibility=hidden -fvisibility-inlines-hidden)
 # GCC 12 warns of what is right, in its own headers (GCC's bugs 105329, 105593, 105651).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  target_compile_options(quoll_options INTERFACE -Wno-array-bounds -Wno-maybe-uninitialized)
+  target_compile_options(quoll_options INTERFACE -Wno-array-bounds -Wno-maybe-uninitialized
+                         -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 target_include_directories(quoll_options INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})
 if(QUOLL_SANITIZE)

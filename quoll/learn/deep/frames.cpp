@@ -12,25 +12,32 @@ std::uint64_t words_of(std::uint32_t numbers) {
 }
 }  // namespace
 
-Frames::Frames(const Spaces& spaces, std::uint64_t count)
-    : observation_(spaces.observation), bits_(spaces.whole && spaces.observation > 0) {
+Frames::Frames(const Spaces& spaces, std::uint64_t count, std::uint64_t most)
+    : observation_(spaces.observation), bits_(spaces.whole && spaces.observation > 0), most_(most) {
   resize(count);
+}
+
+// Memory that is reserved and never touched costs nothing.
+template <typename Number>
+void Frames::grow(std::vector<Number>& numbers, std::uint64_t of_a_frame) {
+  numbers.reserve(most_ * of_a_frame);
+  numbers.resize(size_ * of_a_frame);
 }
 
 void Frames::resize(std::uint64_t count) {
   size_ = count;
   if (observation_ == 0) {
-    states_.resize(count);
+    grow(states_, 1);
   } else if (bits_) {
-    words_.resize(count * words_of(observation_));
+    grow(words_, words_of(observation_));
   } else {
-    floats_.resize(count * observation_);
+    grow(floats_, observation_);
   }
 }
 
 // Something else than 0 and 1 was seen: from now on floats.
 void Frames::unpack() {
-  floats_.resize(size_ * observation_);
+  grow(floats_, observation_);
   for (std::uint64_t frame = 0; frame < size_; ++frame) {
     read(frame, std::span(floats_).subspan(frame * observation_, observation_));
   }

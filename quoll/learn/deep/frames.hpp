@@ -13,7 +13,8 @@ namespace quoll {
 class Frames {
  public:
   /// Of a world whose observations are said to be whole bits are kept, until one is not 0 or 1.
-  Frames(const Spaces& spaces, std::uint64_t count);
+  /// Room is set aside for `most`: growing up to there copies nothing.
+  Frames(const Spaces& spaces, std::uint64_t count, std::uint64_t most = 0);
 
   std::uint64_t size() const { return size_; }
   void resize(std::uint64_t count);
@@ -28,10 +29,12 @@ class Frames {
 
  private:
   void unpack();
+  template <typename Number>
+  void grow(std::vector<Number>& numbers, std::uint64_t of_a_frame);
 
   std::uint32_t observation_ = 0;
   bool bits_ = false;
-  std::uint64_t size_ = 0;
+  std::uint64_t size_ = 0, most_ = 0;
   std::vector<State> states_;
   std::vector<float> floats_;
   std::vector<std::uint64_t> words_;

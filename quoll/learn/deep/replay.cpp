@@ -14,7 +14,7 @@ Replay::Replay(const Spaces& spaces, std::uint64_t capacity, std::uint32_t lanes
       reward_(ring_ * lanes),
       flags_(ring_ * lanes),
       aside_(ring_ * lanes),
-      frames_(spaces, ring_ * lanes) {}
+      frames_(spaces, ring_ * lanes, 2 * ring_ * lanes + 1) {}
 
 std::uint64_t Replay::frame_aside() {
   if (free_.empty()) {

@@ -34,10 +34,11 @@ class Targets {
   Targets(const DeepSettings& how, const Distribution& distribution, std::size_t actions);
 
   /// Writes the target of taking `action` with this reward and carry: as many numbers as an action
-  /// has outputs. Double: van Hasselt, Guez, Silver 2016,
-  /// equation 4. Munchausen: Vieillard, Pietquin, Geist 2020, equation 1, temperature 0.03, weight
-  /// 0.9, the log-policy cut at -1; of distributions, the mixture by the soft policy. Both: the
-  /// soft policy in s' is that of the online weights, and the target weights say what it is worth.
+  /// has outputs. Double: van Hasselt, Guez, Silver 2016, equation 4. Munchausen: Vieillard,
+  /// Pietquin, Geist 2020, equation 1, temperature 0.03, weight 0.9, the log-policy cut at -1; of
+  /// outputs that are more than a mean, the mean of the actions' by the soft policy: of C51's
+  /// shares that is the mixture of the distributions, of quantiles the mean that M-IQN takes.
+  /// Both: the soft policy in s' is that of the online weights, the target weights say its worth.
   void find(const Surroundings& at, Action action, float reward, float carry, std::span<float> out);
 
  private:
