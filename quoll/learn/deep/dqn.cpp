@@ -27,13 +27,12 @@
 #include <cmath>
 #include <optional>
 
-#include "quoll/base/math.hpp"
 #include "quoll/learn/deep/known_values.hpp"
 #include "quoll/learn/deep/learners.hpp"
 #include "quoll/learn/deep/network_learner.hpp"
+#include "quoll/learn/deep/priorities.hpp"
 #include "quoll/learn/deep/q_network.hpp"
 #include "quoll/learn/deep/replay.hpp"
-#include "quoll/learn/deep/sum_tree.hpp"
 #include "quoll/learn/deep/targets.hpp"
 
 namespace quoll {
@@ -79,7 +78,7 @@ class Dqn final : public NetworkLearner {
         predicted_(batch_ * distribution_.atoms()),
         targets_(predicted_.size()),
         slopes_(predicted_.size()) {
-    if (how_.prioritised) priorities_.emplace(replay_.slots());
+    if (how_.prioritised) priorities_.emplace(replay_.slots(), how_.priority_exponent);
     // Many numbers a frame would take more memory than what was seen.
     const std::size_t row = actions_ * distribution_.atoms();
     if (!how_.noisy && how_.target_share >= 1.0 && row <= most_known) known_.emplace(row);
@@ -104,8 +103,7 @@ class Dqn final : public NetworkLearner {
 
   const DeepSettings& how_;
   Replay replay_;
-  std::optional<SumTree> priorities_;
-  double largest_ = 1.0;  // priority so far
+  std::optional<Priorities> priorities_;
   Rng draw_;
   std::size_t batch_;
   std::vector<std::uint64_t> slots_;
@@ -155,33 +153,21 @@ void Dqn::remember() {
       known_->forget(replay_.frame_after(replay_.newest(lane)));
     }
     if (!priorities_) continue;
-    priorities_->set(replay_.newest(lane), largest_);
-    priorities_->set(replay_.forgotten_next(lane), 0.0);
+    priorities_->add(replay_.newest(lane));
+    priorities_->forget(replay_.forgotten_next(lane));
   }
 }
 
 // 3
 void Dqn::draw() {
   const std::uint64_t size = replay_.size();
-  if (!priorities_) {
-    for (std::uint64_t& slot : slots_) {
-      slot = replay_.slot(static_cast<std::uint64_t>(draw_.uniform() * static_cast<double>(size)));
-    }
-    return;
+  if (priorities_) {
+    const double beta = deep_.priority_correction.at(walkers_.progress().steps);
+    return priorities_->draw(draw_, size, beta, slots_, weights_);
   }
-  // One from each of as many equal parts.
-  const double part = priorities_->total() / static_cast<double>(batch_);
-  const double beta = deep_.priority_correction.at(walkers_.progress().steps);
-  double largest = 0.0;
-  for (std::size_t i = 0; i < batch_; ++i) {
-    const double mass = (static_cast<double>(i) + draw_.uniform()) * part;
-    slots_[i] = priorities_->find(mass);
-    const double share = (*priorities_)[slots_[i]] / priorities_->total();
-    const double weight = math::pow(static_cast<double>(size) * share, -beta);
-    weights_[i] = static_cast<float>(weight);
-    largest = std::max(largest, weight);
+  for (std::uint64_t& slot : slots_) {
+    slot = replay_.slot(static_cast<std::uint64_t>(draw_.uniform() * static_cast<double>(size)));
   }
-  for (float& weight : weights_) weight = static_cast<float>(double{weight} / largest);
 }
 
 // 4
@@ -276,10 +262,7 @@ void Dqn::update() {
     if (how_.returns != Returns::mean) loss_sum += surprise * double{weights_[i]};
     value_sum += double{distribution_.mean(x)};
     // 7
-    if (!priorities_) continue;
-    const double priority = math::pow(surprise + 1e-6, how_.priority_exponent);
-    priorities_->set(slots_[i], priority);
-    largest_ = std::max(largest_, priority);
+    if (priorities_) priorities_->set(slots_[i], surprise);
   }
   q_->update(slopes_.data(), deep_.learning_rate.at(walkers_.progress().steps));
   tell(loss_sum * double{share}, value_sum * double{share});
@@ -288,7 +271,6 @@ void Dqn::update() {
 void Dqn::persist_own(Archive& archive) {
   archive("replay", replay_);
   archive("draw", draw_);
-  archive("largest", largest_);
   if (priorities_) archive("priorities", *priorities_);
 }
 
