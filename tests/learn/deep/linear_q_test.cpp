@@ -61,6 +61,19 @@ TEST(LinearQ, TracesCarryErrorsBackWithinAnEpisode) {
   EXPECT_EQ(one->finished()[0].steps, 3u);
 }
 
+// The same cut off after two steps: 3, a new episode: error 1 + 1 / 2 - 0.75 = 0.75: A 1.125, and
+// B, a step of the episode before, stays.
+TEST(LinearQ, ACutEndsTheTraces) {
+  MdpBuilder builder(0.5);
+  builder.move("A", "go", "B", 1).move("B", "go", "C", 2).move("C", "go", "END", 4);
+  builder.start("A");
+  LearnSettings settings = linear(0.5, 0.5);
+  settings.episode_steps = 2;
+  const auto one = learner(settings, to_world("chain", *builder.build()));
+  one->advance(3, {});
+  EXPECT_EQ(one->estimates().q, (std::vector<double>{1.125, 1, 0}));
+}
+
 TEST(LinearQ, MeasuresAreSumsOverTheSteps) {
   MdpBuilder builder(0.5);
   builder.move("A", "go", "B", 1).move("B", "go", "END", 2);

@@ -63,6 +63,17 @@ TEST(Nfq, ACutCountsWhatFollows) {
   EXPECT_LT(error_of(world, *one), one_in_200);
 }
 
+// All that was seen counts once, however it is cut into parts: Q is the mean of the prizes.
+TEST(Nfq, EveryStepCountsOnce) {
+  MdpBuilder builder(0.5);
+  builder.move("A", "gamble", "END", 0.0, 0.5).move("A", "gamble", "END", 8.0, 0.5).start("A");
+  LearnSettings settings = fitted();
+  settings.deep.train_every = 300;
+  const auto one = learner(settings, to_world("prize", *builder.build()));
+  const LearnProgress done = one->advance(300, {});
+  EXPECT_NEAR(one->estimates().q[0], done.return_sum / 300.0, 0.01);
+}
+
 // Fits that nobody wants to wait for are left, saved and gone on with.
 TEST(Nfq, GoesOnWithWhatItLeft) {
   const World world = adventure();
