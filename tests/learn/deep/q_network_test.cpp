@@ -198,6 +198,26 @@ TEST(QNetwork, TheTargetStaysUntilItIsMoved) {
   EXPECT_EQ(target, online);
 }
 
+// Of a network without a hidden layer, whose values are as its weights.
+TEST(QNetwork, TheTargetMovesAPartOfTheWay) {
+  DeepSetup deep = setup_of({}, 1);
+  deep.hidden.clear();
+  const auto q = *make_q_network(deep, 1, 2, true);
+  const std::vector<float> x = inputs(2 * 5), slopes = {1, -1};
+  const std::vector<Action> actions = {0, 1};
+  std::vector<float> first(6), online(6), target(6), out(2);
+  q->values(QFunction::Weights::target, x.data(), 2, first.data());
+  q->predict(x.data(), 2, actions.data(), out.data());
+  q->update(slopes.data(), 0.1);
+  q->sync(0.25);
+  q->values(QFunction::Weights::online, x.data(), 2, online.data());
+  q->values(QFunction::Weights::target, x.data(), 2, target.data());
+  EXPECT_NE(online, first);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(target[i], 0.75F * first[i] + 0.25F * online[i], 1e-5F);
+  }
+}
+
 TEST(QNetwork, NoiseIsDrawnAnewAndNoPartOfASnapshot) {
   for (Variant variant : layouts()) {
     variant.settings.noisy = true;
